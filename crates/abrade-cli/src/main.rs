@@ -1,0 +1,2 @@
+//! The `abrade` command.
+fn main() {}

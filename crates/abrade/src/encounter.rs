@@ -1,0 +1,148 @@
+//! One body's running contact with wear surfaces: the state that outlives a step of the
+//! embedder, and the call that carries it through such a step.
+
+use nalgebra::{Isometry3, Vector3};
+
+use crate::body::{Body, State};
+use crate::error::PhysicsError;
+use crate::ledger::Ledger;
+use crate::surface::Surface;
+
+/// What an encounter is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EncounterSettings {
+    /// Target relative time error of the wear volume [-].
+    pub accuracy: f64,
+    /// Keep the energy ledger.
+    pub ledger: bool,
+    /// Steps after which a contact is given up, per call of [`Encounter::advance`].
+    pub step_limit: u64,
+}
+
+impl Default for EncounterSettings {
+    fn default() -> Self {
+        Self { accuracy: 1e-3, ledger: false, step_limit: 50_000_000 }
+    }
+}
+
+/// A surface where it lies, in the frame of the integration.
+pub struct Placed<'a> {
+    /// The surface.
+    pub surface: &'a mut Surface,
+    /// Its frame; at rest during the call.
+    pub pose: Isometry3<f64>,
+}
+
+/// What acts on the body beside the contact, constant over a call.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Loads {
+    /// Acceleration of gravity [m/s2].
+    pub gravity: Vector3<f64>,
+    /// Force at the centre of mass [N].
+    pub force: Vector3<f64>,
+    /// Torque [N m].
+    pub torque: Vector3<f64>,
+    /// Linear damping [1/s], as Rapier defines it.
+    pub linear_damping: f64,
+    /// Angular damping [1/s].
+    pub angular_damping: f64,
+}
+
+/// When [`Encounter::advance`] may return before its duration is over.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Until {
+    /// Never.
+    #[default]
+    Duration,
+    /// At the first instant after contact at which the whole body is above every undeformed
+    /// surface, or its kinetic energy is below 1e-9 of what it was before the contact.
+    FirstExit,
+}
+
+/// What a call of [`Encounter::advance`] did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Advance {
+    /// Time gone by [s]; less than asked for after a [`Until::FirstExit`].
+    pub time: f64,
+    /// True when `Until::FirstExit` ended the call.
+    pub exited: bool,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Nodes taken through the law, rejected steps included.
+    pub node_evaluations: u64,
+    /// Impulse of the surfaces on the body [N s].
+    pub impulse: Vector3<f64>,
+    /// Time in contact [s].
+    pub contact_time: f64,
+}
+
+/// Sees every accepted step.
+pub trait Observer {
+    /// Called once per accepted step.
+    fn observe(&mut self, instant: &Instant<'_>);
+}
+
+/// An instant after an accepted step.
+pub struct Instant<'a> {
+    /// Time since the call began [s].
+    pub time: f64,
+    /// State of the body, in the frame of the integration.
+    pub state: &'a State,
+    /// Force of the surfaces on the body [N].
+    pub force: Vector3<f64>,
+    /// The surfaces.
+    pub surfaces: &'a [Placed<'a>],
+    /// The energies, if kept.
+    pub ledger: Option<&'a Ledger>,
+}
+
+/// Sees nothing.
+impl Observer for () {
+    fn observe(&mut self, _: &Instant<'_>) {}
+}
+
+/// One body's running contact with wear surfaces.
+#[derive(Clone, Debug)]
+pub struct Encounter {
+    settings: EncounterSettings,
+    ledger: Ledger,
+}
+
+impl Encounter {
+    /// An encounter of `body`, not yet in contact.
+    ///
+    /// # Errors
+    /// Settings out of range, or a law that does not go with the body's shape.
+    pub fn new(_body: &Body, settings: EncounterSettings) -> Result<Self, PhysicsError> {
+        Ok(Self { settings, ledger: Ledger::default() })
+    }
+
+    /// Carries `body` through `duration` [s], wearing the surfaces it touches. The number and
+    /// order of `surfaces` must not change over the life of an encounter.
+    ///
+    /// # Errors
+    /// A physical state outside the model's reach; the body is left where it was found, the
+    /// surfaces as far as they were worn.
+    pub fn advance(
+        &mut self,
+        _body: &mut Body,
+        _surfaces: &mut [Placed<'_>],
+        _loads: &Loads,
+        _duration: f64,
+        _until: Until,
+        _observer: &mut dyn Observer,
+    ) -> Result<Advance, PhysicsError> {
+        let _ = self.settings;
+        todo!()
+    }
+
+    /// True while a node carries force.
+    pub fn in_contact(&self) -> bool {
+        todo!()
+    }
+
+    /// The energies since the encounter began; zeros unless asked for.
+    pub fn ledger(&self) -> &Ledger {
+        &self.ledger
+    }
+}

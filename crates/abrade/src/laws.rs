@@ -1,0 +1,130 @@
+//! The laws a surface can carry: elastic part, flow part, removal rule. Data only; the
+//! arithmetic stands in `elastic` and `flow`.
+
+use crate::error::ParameterError;
+
+/// Elastic part of the contact, per node.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub enum ElasticLaw {
+    /// Winkler foundation: pressure k_w d, independent of the mesh.
+    Foundation {
+        /// k_w [Pa/m]; by default calibrated so that a sphere of the body's reference radius R
+        /// carries its Hertz force when its mean pressure is H: 16 E*^2 / (9 pi^2 R H), with the
+        /// yield overlap H/k_w kept within [1e-4, 2e-2] R.
+        #[cfg_attr(
+            feature = "serde",
+            serde(default, deserialize_with = "crate::quantity::optional_stiffness")
+        )]
+        #[cfg_attr(feature = "serde", schemars(with = "Option<crate::quantity::Quantity>"))]
+        stiffness: Option<f64>,
+    },
+    /// The paper's law: every node a sphere of its own, Hertz normal force, Mindlin tangential
+    /// spring. Does not converge with the pitch.
+    HertzNodes {
+        /// r_s [m]: radius of a node's sphere; the body is inflated by it.
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::quantity::length"))]
+        #[cfg_attr(feature = "serde", schemars(with = "crate::quantity::Quantity"))]
+        node_radius: f64,
+        /// Which bodies give way.
+        #[cfg_attr(feature = "serde", serde(default))]
+        convention: HertzConvention,
+    },
+    /// No springs: rigid-plastic.
+    Rigid,
+}
+
+/// Which bodies give way in [`ElasticLaw::HertzNodes`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, schemars::JsonSchema))]
+pub enum HertzConvention {
+    /// K = 2E/(3(1-nu^2)), k_t = 4G/(2-nu): node and body of the same elasticity.
+    #[default]
+    ElasticPair,
+    /// Both doubled: the body is rigid.
+    RigidBody,
+}
+
+/// Flow part: when a node sinks, and by how much.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub enum FlowLaw {
+    /// Capozza & Hanley (2022), Eqs. 7-9: a normal gate and a lateral gate.
+    CapozzaHanley {
+        /// Geometry of the lateral drop.
+        #[cfg_attr(feature = "serde", serde(default))]
+        lateral: Lateral,
+    },
+    /// Pressure H on every face element moving into the surface, normal to the face: the
+    /// rigid-plastic theory of Hutchings, Papini & Spelt, Rickerby & Macmillan.
+    NormalPressure {},
+}
+
+/// Geometry of the lateral drop in [`FlowLaw::CapozzaHanley`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, schemars::JsonSchema))]
+pub enum Lateral {
+    /// Exact and signed: the drop that keeps the node on the moving body.
+    #[default]
+    Projected,
+    /// The paper's Eq. 5 and Eq. A.1 to the letter: every node as if in the plane of motion.
+    /// For balls alone.
+    Eq5,
+}
+
+/// Which part of the displaced volume leaves the surface as debris.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub enum Removal {
+    /// All of it.
+    #[default]
+    All,
+    /// A fixed share.
+    Fraction {
+        /// Share of the displaced volume that is removed [-].
+        of: f64,
+    },
+    /// Cutting where the face attacks steeper than `critical`, ploughing below.
+    AttackAngle {
+        /// Angle between the face and its sliding direction [rad].
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::quantity::angle"))]
+        #[cfg_attr(feature = "serde", schemars(with = "crate::quantity::Quantity"))]
+        critical: f64,
+    },
+}
+
+impl ElasticLaw {
+    /// Every value outside its range.
+    pub fn check(&self) -> Vec<ParameterError> {
+        match self {
+            Self::Foundation { stiffness } => stiffness
+                .and_then(|k| ParameterError::positive("stiffness", k))
+                .into_iter()
+                .collect(),
+            Self::HertzNodes { node_radius, .. } => {
+                ParameterError::positive("node_radius", *node_radius).into_iter().collect()
+            }
+            Self::Rigid => Vec::new(),
+        }
+    }
+}
+
+impl Removal {
+    /// Every value outside its range.
+    pub fn check(&self) -> Vec<ParameterError> {
+        match self {
+            Self::All => Vec::new(),
+            Self::Fraction { of } => {
+                ParameterError::within("of", *of, 0.0, 1.0).into_iter().collect()
+            }
+            Self::AttackAngle { critical } => {
+                ParameterError::within("critical", *critical, 0.0, std::f64::consts::FRAC_PI_2)
+                    .into_iter()
+                    .collect()
+            }
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! The energy ledger: kept only in runs that ask for it.
+
+/// Energies of one body's contacts [J]. Every wear and friction increment is >= 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ledger {
+    /// Stored in the springs.
+    pub elastic: f64,
+    /// Dissipated by slip.
+    pub friction: f64,
+    /// Work of the nodes' forces on their drops (Eqs. 21, 22).
+    pub wear: f64,
+    /// Dissipated by damping.
+    pub damping: f64,
+    /// Done by gravity, loads and drives.
+    pub external_work: f64,
+    /// Change that `HertzNodes` makes because its tangential history is not conservative, and
+    /// elastic energy of contacts that `swept` lost sideways.
+    pub history: f64,
+    /// Change of the kinetic energy since the ledger was opened.
+    pub kinetic_change: f64,
+}
+
+impl Ledger {
+    /// What time integration has added: the run's honest error monitor.
+    pub fn numerical(&self) -> f64 {
+        self.external_work
+            - (self.kinetic_change
+                + self.elastic
+                + self.friction
+                + self.wear
+                + self.damping
+                + self.history)
+    }
+}
+
+impl std::ops::AddAssign for Ledger {
+    fn add_assign(&mut self, other: Self) {
+        self.elastic += other.elastic;
+        self.friction += other.friction;
+        self.wear += other.wear;
+        self.damping += other.damping;
+        self.external_work += other.external_work;
+        self.history += other.history;
+        self.kinetic_change += other.kinetic_change;
+    }
+}

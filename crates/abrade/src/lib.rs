@@ -1,0 +1,30 @@
+//! Plastic wear of surfaces by rigid bodies: nodes, laws, contact integrator, energy ledger.
+//!
+//! The model is that of Capozza & Hanley, Powder Technology 410 (2022) 117864, and the
+//! generalisation it proposes. No engine, no files, no clock; everything is `f64` and SI.
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+mod body;
+mod encounter;
+mod error;
+mod laws;
+mod ledger;
+mod material;
+mod nodes;
+#[cfg(feature = "serde")]
+pub mod quantity;
+mod shape;
+mod surface;
+
+pub use body::{Body, Inertia, State};
+pub use encounter::{
+    Advance, Encounter, EncounterSettings, Instant, Loads, Observer, Placed, Until,
+};
+pub use error::{ParameterError, PhysicsError, ShapeError, SurfaceError};
+pub use laws::{ElasticLaw, FlowLaw, HertzConvention, Lateral, Removal};
+pub use ledger::Ledger;
+pub use material::Material;
+pub use nodes::Nodes;
+pub use shape::{Ball, Hull, Piece, Polyhedron, Shape, cuboid_vertices};
+pub use surface::{HexStrip, Surface, SurfaceLaws, Worn};
