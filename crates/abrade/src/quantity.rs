@@ -18,7 +18,7 @@ pub enum Quantity {
 }
 
 /// What a number measures, and the units it can be written in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dimension {
     /// Name with its article, for messages.
     pub name: &'static str,
