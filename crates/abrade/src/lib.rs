@@ -8,6 +8,8 @@
 mod body;
 mod encounter;
 mod error;
+mod grid;
+mod hull;
 mod laws;
 mod ledger;
 mod material;
@@ -22,9 +24,10 @@ pub use encounter::{
     Advance, Encounter, EncounterSettings, Instant, Loads, Observer, Placed, Until,
 };
 pub use error::{ParameterError, PhysicsError, ShapeError, SurfaceError};
+pub use hull::{Hull, Plane, Polyhedron, cuboid_vertices};
 pub use laws::{ElasticLaw, FlowLaw, HertzConvention, Lateral, Removal};
 pub use ledger::Ledger;
 pub use material::Material;
 pub use nodes::Nodes;
-pub use shape::{Ball, Hull, Piece, Polyhedron, Shape, cuboid_vertices};
+pub use shape::{Ball, Piece, Shape};
 pub use surface::{HexStrip, Surface, SurfaceLaws, Worn};

@@ -1,15 +1,16 @@
 //! Shapes of bodies: a ball, a convex hull, or a clump of either. Coordinates are about the
 //! centre of mass of the body.
 
-use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
+use nalgebra::{Point3, UnitQuaternion, Vector3};
 
-use crate::body::Inertia;
-use crate::error::ShapeError;
+use crate::error::{ParameterError, ShapeError};
+use crate::hull::Hull;
 
 /// A union of convex pieces about the centre of mass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
     pieces: Vec<Piece>,
+    bounding_radius: f64,
 }
 
 /// A convex piece of a shape.
@@ -30,45 +31,40 @@ pub struct Ball {
     pub radius: f64,
 }
 
-/// A convex polyhedron, kept as its vertices and the planes of its faces.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Hull {
-    vertices: Vec<Point3<f64>>,
-    /// Outward unit normals of the faces.
-    normals: Vec<Vector3<f64>>,
-    /// Distance of each face's plane from the origin [m].
-    offsets: Vec<f64>,
-}
-
-/// The regular polyhedra and the cuboid's like that a scene can name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Deserialize, schemars::JsonSchema))]
-pub enum Polyhedron {
-    /// (1,1,1), (1,-1,-1), (-1,1,-1), (-1,-1,1), times edge / sqrt 8.
-    Tetrahedron,
-    /// Faces along the axes.
-    Cube,
-    /// (+-1,0,0).., times edge / sqrt 2.
-    Octahedron,
-    /// (0,+-1,+-phi).., times edge / 2.
-    Icosahedron,
-}
-
 impl Shape {
     /// A ball about the origin.
     ///
     /// # Errors
     /// A radius that is not finite and above zero.
-    pub fn ball(_radius: f64) -> Result<Self, ShapeError> {
-        todo!()
+    pub fn ball(radius: f64) -> Result<Self, ShapeError> {
+        Self::union(vec![Piece::Ball(Ball { centre: Point3::origin(), radius })])
+    }
+
+    /// A hull about the origin.
+    pub fn hull(hull: Hull) -> Self {
+        let bounding_radius = hull.bounding_radius();
+        Self { pieces: vec![Piece::Hull(hull)], bounding_radius }
     }
 
     /// A union of pieces; coordinates about the body's centre of mass.
     ///
     /// # Errors
     /// No piece, or a ball whose radius is not finite and above zero.
-    pub fn union(_pieces: Vec<Piece>) -> Result<Self, ShapeError> {
-        todo!()
+    pub fn union(pieces: Vec<Piece>) -> Result<Self, ShapeError> {
+        if pieces.is_empty() {
+            return Err(ShapeError::Empty { what: "it has no pieces" });
+        }
+        for piece in &pieces {
+            let Piece::Ball(ball) = piece else { continue };
+            let values = ball.centre.coords.iter().map(|&x| ("centre", x, x.is_finite()));
+            let radius = ("radius", ball.radius, ball.radius > 0.0 && ball.radius.is_finite());
+            if let Some((field, value, _)) = values.chain([radius]).find(|(.., fine)| !fine) {
+                let allowed = if field == "radius" { "finite and above zero" } else { "finite" };
+                return Err(ParameterError { field, value, allowed: allowed.into() }.into());
+            }
+        }
+        let bounding_radius = pieces.iter().map(Piece::bounding_radius).fold(0.0, f64::max);
+        Ok(Self { pieces, bounding_radius })
     }
 
     /// The pieces.
@@ -76,48 +72,39 @@ impl Shape {
         &self.pieces
     }
 
+    /// True when a piece has faces.
+    pub fn has_faces(&self) -> bool {
+        self.pieces.iter().any(|piece| matches!(piece, Piece::Hull(_)))
+    }
+
     /// Largest distance of a point of the shape from the centre of mass [m].
     pub fn bounding_radius(&self) -> f64 {
-        todo!()
+        self.bounding_radius
     }
 
     /// Lowest point's coordinate along the unit vector `up` when the shape is turned by
     /// `rotation` [m].
-    pub fn lowest(&self, _rotation: &UnitQuaternion<f64>, _up: &Vector3<f64>) -> f64 {
-        todo!()
+    pub fn lowest(&self, rotation: &UnitQuaternion<f64>, up: &Vector3<f64>) -> f64 {
+        let up = rotation.inverse_transform_vector(up);
+        self.pieces.iter().map(|piece| piece.lowest(&up)).fold(f64::INFINITY, f64::min)
     }
 }
 
-impl Hull {
-    /// The convex hull of `points` and its inertia at `density` [kg/m3]; the hull is moved so that
-    /// its centre of mass is the origin, and the shift is returned (old = new + shift).
-    ///
-    /// # Errors
-    /// No points, points that are not finite, or coplanar points.
-    pub fn solid(
-        _points: &[Point3<f64>],
-        _density: f64,
-    ) -> Result<(Self, Inertia, Vector3<f64>), ShapeError> {
-        todo!()
+impl Piece {
+    fn bounding_radius(&self) -> f64 {
+        match self {
+            Self::Ball(ball) => ball.centre.coords.norm() + ball.radius,
+            Self::Hull(hull) => hull.bounding_radius(),
+        }
     }
 
-    /// Vertices [m].
-    pub fn vertices(&self) -> &[Point3<f64>] {
-        &self.vertices
+    /// Lowest coordinate along `up`, given in the body's frame.
+    fn lowest(&self, up: &Vector3<f64>) -> f64 {
+        match self {
+            Self::Ball(ball) => ball.centre.coords.dot(up) - ball.radius,
+            Self::Hull(hull) => {
+                hull.vertices().iter().map(|v| v.coords.dot(up)).fold(f64::INFINITY, f64::min)
+            }
+        }
     }
 }
-
-impl Polyhedron {
-    /// Vertices of the polyhedron with this `edge` [m].
-    pub fn vertices(self, _edge: f64) -> Vec<Point3<f64>> {
-        todo!()
-    }
-}
-
-/// Vertices of a box with these half extents [m].
-pub fn cuboid_vertices(_half_extents: &Vector3<f64>) -> Vec<Point3<f64>> {
-    todo!()
-}
-
-/// Keeps the signature of inertia tensors in one place.
-pub type InertiaTensor = Matrix3<f64>;

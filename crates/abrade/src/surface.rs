@@ -1,9 +1,15 @@
 //! A wear surface: nodes, laws, and what has been worn off.
 
-use crate::error::SurfaceError;
+use nalgebra::{Point3, Vector3};
+
+use crate::error::{ParameterError, SurfaceError};
+use crate::grid::Grid;
 use crate::laws::{ElasticLaw, FlowLaw, Removal};
 use crate::material::Material;
 use crate::nodes::Nodes;
+
+/// Nodes a surface may have: indices are 32 bits wide, and a node takes about 90 bytes.
+const NODE_LIMIT: f64 = 2e8;
 
 /// The laws a surface obeys.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,6 +60,69 @@ pub struct Surface {
     pub(crate) nodes: Nodes,
     pub(crate) laws: SurfaceLaws,
     pub(crate) worn: Worn,
+    pub(crate) grid: Grid,
+    columns_rows: [usize; 2],
+    pitch: f64,
+}
+
+impl HexStrip {
+    /// A strip of the given extent [m] on which a node stands for length * width / nodes; the
+    /// pitch follows from that area.
+    pub fn with_nodes(length: f64, width: f64, nodes: f64) -> Self {
+        let area = length * width / nodes;
+        let pitch = (2.0 * area / 3f64.sqrt()).sqrt();
+        Self { length, width, pitch, rest_area: Some(area) }
+    }
+
+    /// Numbers of columns (along x) and rows (along y).
+    pub fn columns_rows(&self) -> [f64; 2] {
+        [(self.length / (self.pitch * 0.75f64.sqrt())).round(), (self.width / self.pitch).round()]
+    }
+
+    /// Every value outside its range.
+    pub fn check(&self) -> Vec<ParameterError> {
+        let area = self.rest_area.and_then(|a| ParameterError::positive("rest_area", a));
+        [("length", self.length), ("width", self.width), ("pitch", self.pitch)]
+            .into_iter()
+            .filter_map(|(field, value)| ParameterError::positive(field, value))
+            .chain(area)
+            .collect()
+    }
+
+    /// Undeformed positions about the node nearest the middle, column by column.
+    fn positions(&self, [columns, rows]: [usize; 2]) -> Vec<Point3<f64>> {
+        let across = self.pitch * 0.75f64.sqrt();
+        let site = |column: usize, row: usize| {
+            let shift = 0.5 * (column % 2) as f64;
+            Point3::new(column as f64 * across, (row as f64 + shift) * self.pitch, 0.0)
+        };
+        let middle = site((columns - 1) / 2, (rows - 1) / 2).coords;
+        let rows_of = |column| (0..rows).map(move |row| site(column, row) - middle);
+        (0..columns).flat_map(rows_of).collect()
+    }
+}
+
+impl SurfaceLaws {
+    /// Every value outside its range, and parameters that a law misses.
+    pub fn check(&self) -> Vec<SurfaceError> {
+        let mut found: Vec<SurfaceError> = self
+            .material
+            .check()
+            .into_iter()
+            .chain(self.elastic.check())
+            .chain(self.removal.check())
+            .map(SurfaceError::from)
+            .collect();
+        let law = match self.elastic {
+            ElasticLaw::Foundation { stiffness: None } => Some("Foundation() without a stiffness"),
+            ElasticLaw::HertzNodes { .. } => Some("HertzNodes"),
+            _ => None,
+        };
+        if let (Some(law), None) = (law, self.material.young) {
+            found.push(SurfaceError::Missing { law, field: "young" });
+        }
+        found
+    }
 }
 
 impl Surface {
@@ -61,8 +130,41 @@ impl Surface {
     ///
     /// # Errors
     /// A parameter out of range, no node, too many nodes.
-    pub fn hex_strip(_strip: HexStrip, _laws: SurfaceLaws) -> Result<Self, SurfaceError> {
-        todo!()
+    pub fn hex_strip(strip: HexStrip, laws: SurfaceLaws) -> Result<Self, SurfaceError> {
+        if let Some(error) = strip.check().into_iter().next() {
+            return Err(error.into());
+        }
+        if let Some(error) = laws.check().into_iter().next() {
+            return Err(error);
+        }
+        let [columns, rows] = strip.columns_rows();
+        if columns * rows < 1.0 {
+            let reason = format!(
+                "length {} m and width {} m give {columns} columns of {rows} rows at a pitch of {} m",
+                strip.length, strip.width, strip.pitch
+            );
+            return Err(SurfaceError::NoNodes { reason });
+        }
+        if columns * rows > NODE_LIMIT {
+            return Err(SurfaceError::TooManyNodes { nodes: columns * rows, limit: NODE_LIMIT });
+        }
+        let columns_rows = [columns as usize, rows as usize];
+        let rest_position = strip.positions(columns_rows);
+        let count = rest_position.len();
+        let area = strip.rest_area.unwrap_or(0.75f64.sqrt() * strip.pitch * strip.pitch);
+        Ok(Self {
+            grid: Grid::new(&rest_position, 4.0 * strip.pitch),
+            nodes: Nodes {
+                rest_position,
+                normal: vec![Vector3::z(); count],
+                rest_area: vec![area; count],
+                depth: vec![0.0; count],
+            },
+            laws,
+            worn: Worn::default(),
+            columns_rows,
+            pitch: strip.pitch,
+        })
     }
 
     /// The nodes.
@@ -80,13 +182,34 @@ impl Surface {
         &self.worn
     }
 
+    /// Distance of neighbouring nodes [m].
+    pub fn pitch(&self) -> f64 {
+        self.pitch
+    }
+
     /// W_V [m3] = sum of rest_area * depth (Eq. 6), chips included.
     pub fn wear_volume(&self) -> f64 {
         self.nodes.wear_volume()
     }
 
     /// Corners of the box around the undeformed nodes, in the surface's frame [m].
-    pub fn bounds(&self) -> [nalgebra::Point3<f64>; 2] {
-        todo!()
+    pub fn bounds(&self) -> [Point3<f64>; 2] {
+        self.grid.bounds()
+    }
+
+    /// Triangles between neighbouring nodes, for display.
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        let [columns, rows] = self.columns_rows;
+        let mut triangles = Vec::with_capacity(2 * columns * rows);
+        for column in 0..columns.saturating_sub(1) {
+            for row in 0..rows.saturating_sub(1) {
+                let [a, b] = [column * rows + row, (column + 1) * rows + row].map(|i| i as u32);
+                triangles.extend(match column % 2 {
+                    0 => [[a, b, a + 1], [b, b + 1, a + 1]],
+                    _ => [[a, b, b + 1], [a, b + 1, a + 1]],
+                });
+            }
+        }
+        triangles
     }
 }
