@@ -1,1 +1,6 @@
-//! Part of abrade.
+//! Scene files: read, checked, built.
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod scene;
+mod spans;

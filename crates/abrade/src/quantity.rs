@@ -1,20 +1,33 @@
 //! Numbers that may be written with a unit: `6.6e9`, or `"6.6 GPa"` where a pressure is meant.
 //!
-//! One table of units, one function per dimension for `#[serde(deserialize_with)]`. A bare
-//! number is in SI (angles in radians).
+//! One table of units, one function per dimension for `#[serde(deserialize_with)]`, and tuples of
+//! such numbers. A bare number is in SI (angles in radians); a quoted one must carry its unit.
+//! Messages have the form `what is wrong; what was expected`, with `; did you mean ..?` after it
+//! where only the case of a unit is wrong.
 
-use serde::de::{Deserializer, Error, Visitor};
+use std::borrow::Cow;
 use std::fmt;
 
-/// A number in SI units, or a quoted number with a unit. Exists for the JSON schema.
-#[derive(schemars::JsonSchema)]
-#[serde(untagged)]
-#[allow(dead_code, reason = "only its schema is used")]
-pub enum Quantity {
-    /// SI value.
-    Si(f64),
-    /// Number and unit, such as `"6.6 GPa"`.
-    WithUnit(String),
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
+
+/// Stands for a dimensioned number in JSON schemas: a number in SI units, or a quoted one with a
+/// unit.
+#[derive(Clone, Copy, Debug)]
+pub struct Quantity;
+
+impl JsonSchema for Quantity {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "Quantity".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": ["number", "string"] })
+    }
 }
 
 /// What a number measures, and the units it can be written in.
@@ -32,13 +45,19 @@ macro_rules! dimensions {
             pub const $constant: Dimension = Dimension { name: $name, units: &[$(($unit, $factor)),+] };
 
             #[doc = concat!("Reads ", $name, ", in SI or quoted with a unit.")]
+            ///
+            /// # Errors
+            /// Not a number, not finite, no unit, a unit of something else.
             pub fn $function<'de, D: Deserializer<'de>>(d: D) -> Result<f64, D::Error> {
-                d.deserialize_any(Number($constant))
+                $constant.deserialize(d)
             }
 
             #[doc = concat!("Reads ", $name, " for an optional field.")]
+            ///
+            /// # Errors
+            /// Not a number, not finite, no unit, a unit of something else.
             pub fn $optional<'de, D: Deserializer<'de>>(d: D) -> Result<Option<f64>, D::Error> {
-                $function(d).map(Some)
+                $constant.deserialize(d).map(Some)
             }
         )+
     };
@@ -60,45 +79,114 @@ dimensions! {
 }
 
 impl Dimension {
-    /// The SI value of `text`, such as `"6.6 GPa"`; the message says what was allowed.
+    /// The SI value of `text`, such as `"6.6 GPa"` or `"1/240 s"`.
+    ///
+    /// # Errors
+    /// A message that says what is wrong and what was allowed.
     pub fn parse(self, text: &str) -> Result<f64, String> {
         let text = text.trim();
-        let split = text
-            .find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | '_')))
-            .map_or(text.len(), |at| number_end(text, at));
-        let (number, unit) = (text[..split].trim(), text[split..].trim());
-        let value: f64 = number
-            .replace('_', "")
-            .parse()
-            .map_err(|_| format!("`{text}` does not start with a number; {}", self.allowed()))?;
+        let (number, unit) = text.split_at(number_end(text));
+        let (number, unit) = (number.trim(), unit.trim());
+        let value = value_of(number)
+            .ok_or_else(|| format!("`{text}` does not start with a number; {}", self.expected()))?;
         if unit.is_empty() {
-            return Err(format!("`{text}` has no unit; {}", self.allowed()));
+            return Err(format!("`{text}` has no unit; {}", self.expected()));
         }
-        let factor = self.units.iter().find(|(name, _)| *name == unit);
-        let (_, factor) = factor.ok_or_else(|| {
-            format!("`{unit}` is not a unit of {}; {}", self.name, self.allowed())
-        })?;
-        Ok(value * factor)
+        match self.units.iter().find(|(name, _)| *name == unit) {
+            Some((_, factor)) => Ok(value * factor),
+            None => Err(self.foreign(unit)),
+        }
     }
 
-    fn allowed(self) -> String {
+    /// Reads a tuple of `N` such numbers.
+    ///
+    /// # Errors
+    /// Not a tuple of that length, or a number refused as by a single field.
+    pub fn array<'de, const N: usize, D>(self, d: D) -> Result<[f64; N], D::Error>
+    where
+        D: Deserializer<'de>,
+    {
+        Row::<N>(self).deserialize(d)
+    }
+
+    /// Reads a list of tuples of `N` such numbers.
+    ///
+    /// # Errors
+    /// Not a list, or a tuple refused as by [`Dimension::array`].
+    pub fn rows<'de, const N: usize, D>(self, d: D) -> Result<Vec<[f64; N]>, D::Error>
+    where
+        D: Deserializer<'de>,
+    {
+        d.deserialize_seq(Rows::<N>(self))
+    }
+
+    /// The message about a unit that does not measure this.
+    fn foreign(self, unit: &str) -> String {
+        let mut message = format!("`{unit}` does not measure {}; {}", self.name, self.expected());
+        if let Some((near, _)) = self.units.iter().find(|(name, _)| name.eq_ignore_ascii_case(unit))
+        {
+            message += &format!("; did you mean `{near}`?");
+        }
+        message
+    }
+
+    fn expected(self) -> String {
+        format!("expected {} in {}", self.name, self.unit_list())
+    }
+
+    fn unit_list(self) -> String {
         let units: Vec<_> = self.units.iter().map(|(name, _)| *name).collect();
-        format!("{} is written in {}", self.name, units.join(", "))
+        match units.split_last() {
+            Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+            _ => units.concat(),
+        }
     }
 }
 
-/// End of the number whose digits stop at `at`: an exponent belongs to it.
-fn number_end(text: &str, at: usize) -> usize {
-    let rest = &text[at..];
-    if !rest.starts_with(['e', 'E']) {
-        return at;
+/// Where the number that `text` starts with ends: digits, `.`, `_`, an exponent, and one division
+/// by a further number.
+fn number_end(text: &str) -> usize {
+    let mut end = 0;
+    let mut before = ' ';
+    for (at, c) in text.char_indices() {
+        let rest = &text[at + c.len_utf8()..];
+        let belongs = match c {
+            '0'..='9' | '.' | '_' => true,
+            '+' | '-' => at == 0 || matches!(before, 'e' | 'E'),
+            'e' | 'E' => {
+                let exponent = rest.strip_prefix(['+', '-']).unwrap_or(rest);
+                at > 0 && exponent.starts_with(|c: char| c.is_ascii_digit())
+            }
+            '/' => before.is_ascii_digit() && rest.starts_with(|c: char| c.is_ascii_digit()),
+            _ => false,
+        };
+        if !belongs {
+            break;
+        }
+        end = at + c.len_utf8();
+        before = c;
     }
-    let exponent = rest[1..].trim_start_matches(['+', '-']);
-    let digits = exponent.len() - exponent.trim_start_matches(|c: char| c.is_ascii_digit()).len();
-    if digits == 0 {
-        return at;
+    end
+}
+
+/// A number or a quotient of two.
+fn value_of(number: &str) -> Option<f64> {
+    let number = number.replace('_', "");
+    match number.split_once('/') {
+        None => number.parse().ok(),
+        Some((above, below)) => {
+            let (above, below): (f64, f64) = (above.parse().ok()?, below.parse().ok()?);
+            Some(above / below)
+        }
     }
-    at + (rest.len() - exponent.len()) + digits
+}
+
+impl<'de> DeserializeSeed<'de> for Dimension {
+    type Value = f64;
+
+    fn deserialize<D: Deserializer<'de>>(self, d: D) -> Result<f64, D::Error> {
+        d.deserialize_any(Number(self))
+    }
 }
 
 struct Number(Dimension);
@@ -107,13 +195,17 @@ impl Visitor<'_> for Number {
     type Value = f64;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "a number in SI units, or a quoted number with a unit ({})", self.0.allowed())
+        let Self(dimension) = self;
+        let units = dimension.unit_list();
+        write!(f, "{}: a number in SI units, or a quoted one in {units}", dimension.name)
     }
 
     fn visit_f64<E: Error>(self, value: f64) -> Result<f64, E> {
         match value.is_finite() {
             true => Ok(value),
-            false => Err(E::custom(format!("`{value}` is not a finite number"))),
+            false => {
+                Err(E::custom(format!("`{value}` is not a finite number; {}", self.0.expected())))
+            }
         }
     }
 
@@ -127,5 +219,78 @@ impl Visitor<'_> for Number {
 
     fn visit_str<E: Error>(self, text: &str) -> Result<f64, E> {
         self.0.parse(text).map_err(E::custom).and_then(|value| self.visit_f64(value))
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Row<const N: usize>(Dimension);
+
+impl<'de, const N: usize> DeserializeSeed<'de> for Row<N> {
+    type Value = [f64; N];
+
+    fn deserialize<D: Deserializer<'de>>(self, d: D) -> Result<Self::Value, D::Error> {
+        d.deserialize_tuple(N, self)
+    }
+}
+
+impl<'de, const N: usize> Visitor<'de> for Row<N> {
+    type Value = [f64; N];
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "a tuple of {N} numbers, each {}", self.0.name)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Self::Value, A::Error> {
+        let mut row = [0.0; N];
+        for (i, value) in row.iter_mut().enumerate() {
+            *value =
+                seq.next_element_seed(self.0)?.ok_or_else(|| A::Error::invalid_length(i, &self))?;
+        }
+        Ok(row)
+    }
+}
+
+struct Rows<const N: usize>(Dimension);
+
+impl<'de, const N: usize> Visitor<'de> for Rows<N> {
+    type Value = Vec<[f64; N]>;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "a list of tuples of {N} numbers, each {}", self.0.name)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Self::Value, A::Error> {
+        let mut rows = Vec::new();
+        while let Some(row) = seq.next_element_seed(Row::<N>(self.0))? {
+            rows.push(row);
+        }
+        Ok(rows)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quoted_number_is_scaled_by_its_unit() {
+        assert_eq!(PRESSURE.parse("6.6 GPa"), Ok(6.6e9));
+        assert_eq!(LENGTH.parse(" 1_000um "), Ok(1e-3));
+        assert_eq!(LENGTH.parse("-1.5e-3 mm"), Ok(-1.5e-3 * 1e-3));
+        assert_eq!(TIME.parse("1/240 s"), Ok(1.0 / 240.0));
+        assert_eq!(ANGLE.parse("180 deg"), Ok(std::f64::consts::PI));
+    }
+
+    #[test]
+    fn a_refusal_says_what_is_wrong_and_what_was_expected() {
+        let refusal = |text| PRESSURE.parse(text).unwrap_err();
+        let expected = "expected a pressure in Pa, kPa, MPa or GPa";
+        assert_eq!(refusal("6.6"), format!("`6.6` has no unit; {expected}"));
+        assert_eq!(refusal("6 mm"), format!("`mm` does not measure a pressure; {expected}"));
+        assert_eq!(refusal("GPa"), format!("`GPa` does not start with a number; {expected}"));
+        assert_eq!(
+            refusal("6 Gpa"),
+            format!("`Gpa` does not measure a pressure; {expected}; did you mean `GPa`?")
+        );
     }
 }

@@ -1,0 +1,68 @@
+//! A scene as its file writes it (RON): named materials, surfaces and bodies, how long to run,
+//! what to write. Plain data: units are resolved, nothing is checked or built.
+//!
+//! The words are fixed: scripts and files outside this repository use them. Every field states its
+//! unit in brackets; the JSON schema and the field reference are made from these lines.
+
+mod body;
+mod motion;
+mod run;
+mod shape;
+mod surface;
+mod vectors;
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+pub use body::{Placement, Rotation, SceneBody};
+pub use motion::{Motion, Solution};
+pub use run::{Moment, Output, Resolve, Run, Stop};
+pub use shape::{ClumpInertia, SceneShape};
+pub use surface::{Geometry, SceneSurface, SurfaceMotion};
+
+use abrade::Material;
+use abrade::quantity::Quantity;
+
+/// The version of scene files that this program reads.
+pub const VERSION: u32 = 1;
+
+/// A scene: what there is, how it moves, when to stop, what to write.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Version of the file's form; this one is 1.
+    pub version: u32,
+    /// What the scene is called; also the name of its results folder.
+    pub name: String,
+    /// Acceleration of gravity, in world axes [m/s2].
+    #[serde(default, deserialize_with = "vectors::acceleration3")]
+    #[schemars(with = "[Quantity; 3]")]
+    pub gravity: [f64; 3],
+    /// Materials that wear, by name.
+    pub materials: BTreeMap<String, Material>,
+    /// Surfaces that wear, by name.
+    pub surfaces: BTreeMap<String, SceneSurface>,
+    /// Bodies, by name.
+    pub bodies: BTreeMap<String, SceneBody>,
+    /// Streams of many bodies, by name; not available yet, so it must be empty.
+    #[serde(default)]
+    pub streams: BTreeMap<String, Stream>,
+    /// When to stop and how closely to compute.
+    #[serde(default)]
+    pub run: Run,
+    /// What is written beside the summary.
+    #[serde(default)]
+    pub outputs: Vec<Output>,
+}
+
+/// A stream of many bodies: its content is not read yet.
+#[derive(Clone, Debug, PartialEq, JsonSchema)]
+pub struct Stream {}
+
+impl<'de> Deserialize<'de> for Stream {
+    fn deserialize<D: serde::Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
+        serde::de::IgnoredAny::deserialize(d).map(|_| Self {})
+    }
+}

@@ -1,0 +1,123 @@
+//! When a scene's run stops, how closely it computes, what it writes.
+
+use abrade::quantity::{self, Quantity};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// When to stop and how closely to compute.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Run {
+    /// When the run ends (default `AllRebounded`).
+    #[serde(default)]
+    pub stop: Stop,
+    /// How contacts are resolved (default `Auto`).
+    #[serde(default)]
+    pub resolve: Resolve,
+    /// Target relative time error of the wear volume [-].
+    #[serde(default = "default_accuracy")]
+    pub accuracy: f64,
+    /// Time step of the engine [s] (default 1/240 s).
+    #[serde(default = "default_step", deserialize_with = "quantity::time")]
+    #[schemars(with = "Quantity")]
+    pub step: f64,
+}
+
+/// When a run ends.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub enum Stop {
+    /// When every free body moves away from every surface, or rests.
+    #[default]
+    AllRebounded,
+    /// At the first instant after contact at which the whole body is above the undeformed surface,
+    /// or its kinetic energy is below 1e-9 of the start.
+    FirstExit,
+    /// After a time.
+    Time {
+        /// Simulated time [s].
+        #[serde(deserialize_with = "quantity::time")]
+        #[schemars(with = "Quantity")]
+        limit: f64,
+    },
+    /// When every driven body has slid its distance.
+    Distance,
+    /// After a number of impacts.
+    Impacts {
+        /// Number of impacts.
+        count: u64,
+    },
+}
+
+/// How contacts are resolved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+pub enum Resolve {
+    /// The method that fits each body and step.
+    #[default]
+    Auto,
+    /// The contact integrator alone.
+    Micro,
+    /// From the engine's impulses; not available yet.
+    QuasiStatic,
+    /// In tiny steps of the engine; not available yet.
+    Lockstep,
+}
+
+/// Something a run writes beside its summary.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub enum Output {
+    /// `history.csv`: motion, force and wear over time.
+    History {
+        /// Time between lines [s].
+        #[serde(deserialize_with = "quantity::time")]
+        #[schemars(with = "Quantity")]
+        every: f64,
+    },
+    /// `surface_NNNN.vtp` and `surface.pvd`: the worn surface, at the end unless `every` is given.
+    Surface {
+        /// At which moment.
+        #[serde(default)]
+        at: Option<Moment>,
+        /// Time between files [s].
+        #[serde(default, deserialize_with = "quantity::optional_time")]
+        #[schemars(with = "Option<Quantity>")]
+        every: Option<f64>,
+    },
+    /// `bodies.pvd`: the bodies at the instants of `Surface`.
+    Bodies,
+    /// `surface.png`: plan view and cross-section of the worn surface.
+    Picture,
+    /// The energy ledger, in the summary.
+    Energy,
+    /// `report.html`.
+    Report,
+    /// A file from which the run can be resumed; not available yet.
+    Checkpoint,
+}
+
+/// A moment of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+pub enum Moment {
+    /// When it ends.
+    End,
+}
+
+impl Default for Run {
+    fn default() -> Self {
+        Self {
+            stop: Stop::default(),
+            resolve: Resolve::default(),
+            accuracy: default_accuracy(),
+            step: default_step(),
+        }
+    }
+}
+
+fn default_accuracy() -> f64 {
+    1e-3
+}
+
+fn default_step() -> f64 {
+    1.0 / 240.0
+}

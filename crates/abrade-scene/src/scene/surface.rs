@@ -1,0 +1,101 @@
+//! Surfaces of a scene.
+
+use abrade::quantity::{self, Quantity};
+use abrade::{ElasticLaw, FlowLaw, Lateral, Removal};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::{Rotation, vectors};
+
+/// A surface that wears.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SceneSurface {
+    /// Name of its material.
+    pub material: String,
+    /// Its shape and its nodes.
+    pub geometry: Geometry,
+    /// When a node sinks, and by how much (default `CapozzaHanley(lateral: Projected)`).
+    #[serde(default = "default_flow")]
+    pub flow: FlowLaw,
+    /// Elastic part of the contact (default `Foundation()`).
+    #[serde(default = "default_elastic")]
+    pub elastic: ElasticLaw,
+    /// How the surface moves (default `Fixed`).
+    #[serde(default)]
+    pub motion: SurfaceMotion,
+    /// Which part of the displaced volume leaves as debris (default `All`).
+    #[serde(default)]
+    pub removal: Removal,
+    /// Where the origin of the surface's frame lies in the world [m].
+    #[serde(default, deserialize_with = "vectors::length3")]
+    #[schemars(with = "[Quantity; 3]")]
+    pub position: [f64; 3],
+    /// How the surface's frame is turned in the world (default: not at all).
+    #[serde(default)]
+    pub rotation: Rotation,
+}
+
+/// Shape and nodes of a surface.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub enum Geometry {
+    /// A flat plate of nodes in close-packed rows along y, normal along z. The origin of its frame
+    /// is the node nearest its middle. Either `pitch` or `nodes` is given.
+    HexStrip {
+        /// Extent along x [m].
+        #[serde(deserialize_with = "quantity::length")]
+        #[schemars(with = "Quantity")]
+        length: f64,
+        /// Extent along y [m].
+        #[serde(deserialize_with = "quantity::length")]
+        #[schemars(with = "Quantity")]
+        width: f64,
+        /// Distance of neighbouring nodes [m].
+        #[serde(default, deserialize_with = "quantity::optional_length")]
+        #[schemars(with = "Option<Quantity>")]
+        pitch: Option<f64>,
+        /// Number of nodes that sets the pitch; a node stands for length * width / nodes.
+        #[serde(default)]
+        nodes: Option<u32>,
+        /// Area a node stands for [m2] (default sqrt(3)/2 pitch^2, or length * width / nodes).
+        #[serde(default, deserialize_with = "quantity::optional_area")]
+        #[schemars(with = "Option<Quantity>")]
+        rest_area: Option<f64>,
+    },
+}
+
+/// How a surface moves.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub enum SurfaceMotion {
+    /// At rest in the world.
+    #[default]
+    Fixed,
+    /// Moved as given; not available yet.
+    Kinematic {
+        /// Velocity of its frame's origin, in world axes [m/s].
+        #[serde(default, deserialize_with = "vectors::speed3")]
+        #[schemars(with = "[Quantity; 3]")]
+        velocity: [f64; 3],
+        /// Angular velocity, in world axes [rad/s].
+        #[serde(default, deserialize_with = "vectors::spin3")]
+        #[schemars(with = "[Quantity; 3]")]
+        spin: [f64; 3],
+    },
+    /// A free body; not available yet.
+    Free {
+        /// Density [kg/m3].
+        #[serde(deserialize_with = "quantity::density")]
+        #[schemars(with = "Quantity")]
+        density: f64,
+    },
+}
+
+fn default_flow() -> FlowLaw {
+    FlowLaw::CapozzaHanley { lateral: Lateral::Projected }
+}
+
+fn default_elastic() -> ElasticLaw {
+    ElasticLaw::Foundation { stiffness: None }
+}
