@@ -1,1 +1,52 @@
-//! Part of abrade.
+//! Plastic wear for worlds simulated by Rapier.
+//!
+//! A [`WearWorld`] stands beside the embedder's physics world. Wear surfaces are registered on
+//! colliders (their *proxies*); every dynamic body whose colliders are balls, cuboids, convex
+//! polyhedra or compounds of those wears them, registered or not.
+//!
+//! A step goes through these stages:
+//! 1. choose: bodies whose path over the step comes near a wear surface, fixed order;
+//! 2. gate: a body with a joint, with something else in its way, or of a shape that the model
+//!    lacks is refused and raises an event; Rapier keeps its contact for that step;
+//! 3. resolve (Micro): the others are carried through the whole step in `f64` by
+//!    [`abrade::Encounter`], in a frame that lies on the surface;
+//! 4. steer: their velocities are set so that Rapier lands where the integration ended, and the
+//!    pairs body x proxy are filtered out;
+//! 5. engine: Rapier's own step, with the embedder's hooks chained behind ours;
+//! 6. settle: poses and end velocities are written, events raised.
+//!
+//! The `f32` and `f64` packages are one source; only [`scalar`] knows the difference.
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub use abrade;
+pub use rapier;
+
+mod derive;
+mod error;
+mod event;
+mod frame;
+mod gate;
+mod guard;
+mod micro;
+mod obstacle;
+mod observer;
+mod path;
+pub mod scalar;
+mod settings;
+mod shadow;
+mod steer;
+mod step;
+mod surface;
+mod tracked;
+mod view;
+mod world;
+
+pub use error::WearError;
+pub use event::{Refusal, WearEvent};
+pub use guard::WearGuard;
+pub use observer::{MicroStep, WearObserver};
+pub use settings::{Counters, StepReport, WearSettings};
+pub use surface::SurfaceId;
+pub use view::WorldView;
+pub use world::WearWorld;

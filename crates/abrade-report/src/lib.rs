@@ -1,1 +1,25 @@
-//! Part of abrade.
+//! Files of a run: summary, history, ParaView files, picture, page.
+//!
+//! Everything here takes `&`: nothing that writes can change a run. Every file appears under its
+//! final name only when it is complete ([`atomic`]). Which files a run writes, and when, is the
+//! caller's business.
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod atomic;
+mod error;
+pub mod history;
+mod mesh;
+pub mod page;
+pub mod picture;
+pub mod pvd;
+pub mod summary;
+mod units;
+pub mod vtp;
+
+pub use error::{FileAction, ReportError};
+pub use history::History;
+pub use mesh::Mesh;
+pub use picture::{Mark, Picture};
+pub use pvd::Series;
+pub use summary::Summary;

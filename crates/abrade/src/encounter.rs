@@ -5,6 +5,7 @@ use nalgebra::{Isometry3, Vector3};
 
 use crate::body::{Body, State};
 use crate::error::PhysicsError;
+use crate::integrate::Integrator;
 use crate::ledger::Ledger;
 use crate::surface::Surface;
 
@@ -60,7 +61,7 @@ pub enum Until {
 }
 
 /// What a call of [`Encounter::advance`] did.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Advance {
     /// Time gone by [s]; less than asked for after a [`Until::FirstExit`].
     pub time: f64,
@@ -79,11 +80,11 @@ pub struct Advance {
 /// Sees every accepted step.
 pub trait Observer {
     /// Called once per accepted step.
-    fn observe(&mut self, instant: &Instant<'_>);
+    fn observe(&mut self, instant: &Instant<'_, '_>);
 }
 
 /// An instant after an accepted step.
-pub struct Instant<'a> {
+pub struct Instant<'a, 'b> {
     /// Time since the call began [s].
     pub time: f64,
     /// State of the body, in the frame of the integration.
@@ -91,58 +92,60 @@ pub struct Instant<'a> {
     /// Force of the surfaces on the body [N].
     pub force: Vector3<f64>,
     /// The surfaces.
-    pub surfaces: &'a [Placed<'a>],
+    pub surfaces: &'a [Placed<'b>],
     /// The energies, if kept.
     pub ledger: Option<&'a Ledger>,
 }
 
 /// Sees nothing.
 impl Observer for () {
-    fn observe(&mut self, _: &Instant<'_>) {}
+    fn observe(&mut self, _: &Instant<'_, '_>) {}
 }
 
 /// One body's running contact with wear surfaces.
 #[derive(Clone, Debug)]
 pub struct Encounter {
-    settings: EncounterSettings,
-    ledger: Ledger,
+    integrator: Integrator,
 }
 
 impl Encounter {
-    /// An encounter of `body`, not yet in contact.
+    /// An encounter of `body` with `surfaces`, not yet in contact.
     ///
     /// # Errors
-    /// Settings out of range, or a law that does not go with the body's shape.
-    pub fn new(_body: &Body, settings: EncounterSettings) -> Result<Self, PhysicsError> {
-        Ok(Self { settings, ledger: Ledger::default() })
+    /// Settings or an inertia out of range, or a law that does not go with the body's shape.
+    pub fn new<'a>(
+        body: &Body,
+        surfaces: impl IntoIterator<Item = &'a Surface>,
+        settings: EncounterSettings,
+    ) -> Result<Self, PhysicsError> {
+        Integrator::new(body, surfaces, settings).map(|integrator| Self { integrator })
     }
 
-    /// Carries `body` through `duration` [s], wearing the surfaces it touches. The number and
-    /// order of `surfaces` must not change over the life of an encounter.
+    /// Carries `body` through `duration` [s], wearing the surfaces it touches: those that the
+    /// encounter was made with, in their order.
     ///
     /// # Errors
-    /// A physical state outside the model's reach; the body is left where it was found, the
-    /// surfaces as far as they were worn.
+    /// A physical state outside the model's reach; the body and the surfaces are left as they
+    /// were after the last accepted step.
     pub fn advance(
         &mut self,
-        _body: &mut Body,
-        _surfaces: &mut [Placed<'_>],
-        _loads: &Loads,
-        _duration: f64,
-        _until: Until,
-        _observer: &mut dyn Observer,
+        body: &mut Body,
+        surfaces: &mut [Placed<'_>],
+        loads: &Loads,
+        duration: f64,
+        until: Until,
+        observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
-        let _ = self.settings;
-        todo!()
+        self.integrator.advance(body, surfaces, loads, duration, until, observer)
     }
 
     /// True while a node carries force.
     pub fn in_contact(&self) -> bool {
-        todo!()
+        self.integrator.in_contact()
     }
 
     /// The energies since the encounter began; zeros unless asked for.
     pub fn ledger(&self) -> &Ledger {
-        &self.ledger
+        self.integrator.ledger()
     }
 }

@@ -6,16 +6,25 @@
 #![warn(missing_docs)]
 
 mod body;
+mod candidates;
+mod elastic;
 mod encounter;
 mod error;
+mod flight;
+mod flow;
 mod grid;
 mod hull;
+mod integrate;
 mod laws;
 mod ledger;
 mod material;
+mod node_law;
 mod nodes;
+mod patch;
 #[cfg(feature = "serde")]
 pub mod quantity;
+mod query;
+mod rotation;
 mod shape;
 mod surface;
 

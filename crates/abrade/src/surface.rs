@@ -52,6 +52,8 @@ pub struct Worn {
     pub peak_normal_force: f64,
     /// Largest number of nodes that carried force at one instant.
     pub peak_touching: usize,
+    /// Largest sum of the effective areas of nodes in normal flow [m2] (Eq. 19).
+    pub indented_area: f64,
 }
 
 /// A surface that wears. Its frame has its origin at the node nearest its middle.

@@ -1,0 +1,43 @@
+//! What can go wrong, with the bodies and surfaces it concerns.
+
+use abrade::PhysicsError;
+use rapier::dynamics::RigidBodyHandle;
+use rapier::geometry::ColliderHandle;
+use thiserror::Error;
+
+use crate::surface::SurfaceId;
+
+/// An error of a wear world.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum WearError {
+    /// The proxy collider does not exist.
+    #[error("there is no collider {collider:?} to put a wear surface on")]
+    NoSuchCollider {
+        /// The handle given.
+        collider: ColliderHandle,
+    },
+    /// The proxy collider carries a wear surface already.
+    #[error("collider {collider:?} carries wear surface {surface} already")]
+    ColliderTaken {
+        /// The handle given.
+        collider: ColliderHandle,
+        /// The surface on it.
+        surface: SurfaceId,
+    },
+    /// The body does not exist, or is not dynamic.
+    #[error("there is no dynamic body {body:?}")]
+    NoSuchBody {
+        /// The handle given.
+        body: RigidBodyHandle,
+    },
+    /// A contact left the reach of the model; Rapier kept the body's contact for that step.
+    #[error("body {body:?} on wear surface {surface}: {source}")]
+    Physics {
+        /// The body.
+        body: RigidBodyHandle,
+        /// The surface it was nearest to.
+        surface: SurfaceId,
+        /// Why.
+        source: PhysicsError,
+    },
+}

@@ -1,0 +1,90 @@
+//! What happened to the contacts of a step. Filtered pairs raise no contact events of Rapier's;
+//! these stand in for them.
+
+use abrade::PhysicsError;
+use nalgebra::Vector3;
+use rapier::dynamics::RigidBodyHandle;
+use rapier::geometry::ColliderHandle;
+use thiserror::Error;
+
+use crate::surface::SurfaceId;
+
+/// An event of the last step.
+#[derive(Clone, Debug, PartialEq)]
+pub enum WearEvent {
+    /// A body came to bear on a wear surface.
+    Started {
+        /// The body.
+        body: RigidBodyHandle,
+        /// The surface.
+        surface: SurfaceId,
+    },
+    /// A body left a wear surface. Contacts that follow each other within one step count as one.
+    Ended {
+        /// The body.
+        body: RigidBodyHandle,
+        /// The surface.
+        surface: SurfaceId,
+        /// Impulse on the body over the contact [N s], in the world; of all surfaces that it
+        /// touched together.
+        impulse: Vector3<f64>,
+        /// Volume displaced on this surface over the contact [m3].
+        volume: f64,
+        /// Time in contact [s].
+        contact_time: f64,
+    },
+    /// A body is near a wear surface and was left to Rapier: whatever it touches does not wear.
+    NotResolved {
+        /// The body.
+        body: RigidBodyHandle,
+        /// The surface.
+        surface: SurfaceId,
+        /// Why.
+        reason: Refusal,
+    },
+    /// A contact left the reach of the model; the body was left to Rapier.
+    Failed {
+        /// The body.
+        body: RigidBodyHandle,
+        /// The surface.
+        surface: SurfaceId,
+        /// Why.
+        error: PhysicsError,
+    },
+}
+
+/// Why the gate refused a body for a step.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum Refusal {
+    /// It is held by a joint.
+    #[error("the body is held by a joint")]
+    Jointed,
+    /// Some of its axes are locked: only all rotations at once may be.
+    #[error("some of the body's axes are locked; only all rotations at once may be")]
+    LockedAxes,
+    /// Another collider is in its way.
+    #[error("collider {collider:?} is in the body's way")]
+    Obstructed {
+        /// The first such collider.
+        collider: ColliderHandle,
+    },
+    /// The surface moves, or may be moved by the contact.
+    #[error("the wear surface moves")]
+    SurfaceMoves,
+    /// A collider of the body is neither a ball, a cuboid, a convex polyhedron nor a compound of
+    /// those.
+    #[error("the shape of collider {collider:?} has no wear contact")]
+    Shape {
+        /// The collider.
+        collider: ColliderHandle,
+    },
+    /// It has no mass, or no solid collider.
+    #[error("the body has no mass or no solid collider")]
+    Massless,
+    /// It lies in the surface already, as left by Rapier.
+    #[error("the body lies {depth:e} m inside the surface")]
+    Inside {
+        /// Largest overlap [m].
+        depth: f64,
+    },
+}

@@ -1,0 +1,61 @@
+//! Watching the contact steps inside a step of the embedder.
+
+use abrade::{Instant, Observer, State};
+use nalgebra::{Isometry3, Vector3};
+use rapier::dynamics::RigidBodyHandle;
+
+/// An accepted contact step of one body.
+pub struct MicroStep<'a> {
+    /// The body.
+    pub body: RigidBodyHandle,
+    /// Time since the embedder's step began [s].
+    pub time: f64,
+    /// The frame of the integration, in the world.
+    pub frame: &'a Isometry3<f64>,
+    /// State, force, surfaces and ledger in that frame; its own time counts from the last call
+    /// into the core.
+    pub instant: &'a Instant<'a>,
+}
+
+/// Sees every accepted contact step.
+pub trait WearObserver {
+    /// Called once per accepted contact step, body after body.
+    fn micro_step(&mut self, step: &MicroStep<'_>);
+}
+
+impl MicroStep<'_> {
+    /// State of the body in the world.
+    pub fn state_world(&self) -> State {
+        self.instant.state.placed_by(self.frame)
+    }
+
+    /// Force of the surfaces on the body in the world [N].
+    pub fn force_world(&self) -> Vector3<f64> {
+        self.frame * self.instant.force
+    }
+}
+
+/// Sees nothing.
+impl WearObserver for () {
+    fn micro_step(&mut self, _: &MicroStep<'_>) {}
+}
+
+/// Passes the core's instants on, with body, frame and time added.
+pub(crate) struct Relay<'a> {
+    pub observer: &'a mut dyn WearObserver,
+    pub body: RigidBodyHandle,
+    pub frame: Isometry3<f64>,
+    /// Time of the embedder's step at which the call into the core began [s].
+    pub began: f64,
+}
+
+impl Observer for Relay<'_> {
+    fn observe(&mut self, instant: &Instant<'_>) {
+        self.observer.micro_step(&MicroStep {
+            body: self.body,
+            time: self.began + instant.time,
+            frame: &self.frame,
+            instant,
+        });
+    }
+}

@@ -1,0 +1,60 @@
+//! What a wear world is asked for, and what it counts.
+
+use abrade::{EncounterSettings, Until};
+use rapier::dynamics::RigidBodyHandle;
+
+/// Settings of a [`WearWorld`](crate::WearWorld).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WearSettings {
+    /// Target relative time error of the wear volume [-].
+    pub accuracy: f64,
+    /// Keep the energy ledger.
+    pub ledger: bool,
+    /// Contact steps after which a body's contact is given up with an error, per step of the
+    /// embedder.
+    pub step_limit: u64,
+    /// Whether a step ends early, at the first instant at which a body has left the surfaces.
+    /// Takes effect while exactly one body is registered with
+    /// [`WearWorld::place`](crate::WearWorld::place): with several, or none, there is no single
+    /// exit to stop at, and steps keep their full length.
+    pub until: Until,
+}
+
+impl Default for WearSettings {
+    fn default() -> Self {
+        let EncounterSettings { accuracy, ledger, step_limit } = EncounterSettings::default();
+        Self { accuracy, ledger, step_limit, until: Until::Duration }
+    }
+}
+
+impl WearSettings {
+    pub(crate) fn encounter(&self) -> EncounterSettings {
+        EncounterSettings {
+            accuracy: self.accuracy,
+            ledger: self.ledger,
+            step_limit: self.step_limit,
+        }
+    }
+}
+
+/// What was done since the world was made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Body steps resolved by Micro.
+    pub micro: u64,
+    /// Body steps left to Rapier near a wear surface, because the gate refused.
+    pub refused: u64,
+    /// Contact steps of the integrator.
+    pub steps: u64,
+    /// Nodes taken through the law.
+    pub node_evaluations: u64,
+}
+
+/// What one step did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepReport {
+    /// Time by which the world went on [s].
+    pub dt: f64,
+    /// The body that left the surfaces and ended the step.
+    pub exited: Option<RigidBodyHandle>,
+}

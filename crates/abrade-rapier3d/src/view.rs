@@ -1,0 +1,43 @@
+//! The parts of a physics world that choosing and resolving look at.
+
+use rapier::dynamics::{
+    ImpulseJointSet, IntegrationParameters, MultibodyJointSet, RigidBodyHandle, RigidBodySet,
+};
+use rapier::geometry::ColliderSet;
+use rapier::math::Vector;
+use rapier::pipeline::PhysicsWorld;
+
+/// Borrowed parts of a physics world, for [`WearWorld::begin_step`](crate::WearWorld::begin_step).
+pub struct WorldView<'a> {
+    /// Acceleration of gravity [m/s2].
+    pub gravity: Vector,
+    /// Parameters of the coming step.
+    pub parameters: &'a IntegrationParameters,
+    /// The bodies; velocities of resolved ones are set.
+    pub bodies: &'a mut RigidBodySet,
+    /// The colliders.
+    pub colliders: &'a ColliderSet,
+    /// The joints.
+    pub impulse_joints: &'a ImpulseJointSet,
+    /// The articulations.
+    pub multibody_joints: &'a MultibodyJointSet,
+}
+
+impl<'a> WorldView<'a> {
+    /// The parts of `world`.
+    pub fn of(world: &'a mut PhysicsWorld) -> Self {
+        Self {
+            gravity: world.gravity,
+            parameters: &world.integration_parameters,
+            bodies: &mut world.bodies,
+            colliders: &world.colliders,
+            impulse_joints: &world.impulse_joints,
+            multibody_joints: &world.multibody_joints,
+        }
+    }
+
+    pub(crate) fn jointed(&self, body: RigidBodyHandle) -> bool {
+        self.impulse_joints.attached_enabled_joints(body).next().is_some()
+            || self.multibody_joints.rigid_body_link(body).is_some()
+    }
+}

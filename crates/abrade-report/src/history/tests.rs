@@ -1,0 +1,89 @@
+//! The table read back with a reader that knows nothing of the writer.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use nalgebra::Point3;
+
+use super::*;
+
+fn columns() -> Columns {
+    Columns { bodies: vec!["ball".into()], surfaces: vec!["plate".into()], energies: true }
+}
+
+fn body() -> BodyRow {
+    let state = State {
+        velocity: Vector3::new(4.0, 5.0, 6.0),
+        spin: Vector3::new(7.0, 8.0, 9.0),
+        ..State::at(Point3::new(1.0, 2.0, 0.1 + 0.2))
+    };
+    BodyRow { state, force: Vector3::new(-1e4, 1e-9, 12.0) }
+}
+
+/// A program that put a value under its neighbour's name, or rounded it, would pass a test that
+/// only counts columns.
+#[test]
+fn every_value_stands_under_its_name_and_reads_back_exactly() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("history.csv");
+    let mut history = History::create(&path, columns()).expect("writable");
+    let energies = EnergySummary { kinetic: 0.5, numerical: -1e-12, ..Default::default() };
+    let surface = SurfaceRow { wear_volume: 1.25e-13, max_depth: 3e-6 };
+    let row = Row {
+        time: 1e-6,
+        bodies: &[body()],
+        surfaces: &[surface],
+        energies: Some(&energies),
+    };
+    history.push(&row).expect("writable");
+    assert!(!path.exists(), "the final name must wait for the end");
+    history.finish().expect("renamed");
+
+    let mut table = csv::Reader::from_path(&path).expect("there");
+    let rows: Vec<BTreeMap<String, f64>> =
+        table.deserialize().collect::<Result<_, _>>().expect("numbers");
+    assert_eq!(rows.len(), 1);
+    let expected = [
+        ("time_s", 1e-6),
+        ("ball_x_m", 1.0),
+        ("ball_z_m", 0.1 + 0.2),
+        ("ball_vy_m_s", 5.0),
+        ("ball_wz_rad_s", 9.0),
+        ("ball_fx_N", -1e4),
+        ("ball_fy_N", 1e-9),
+        ("plate_wear_volume_m3", 1.25e-13),
+        ("plate_max_depth_m", 3e-6),
+        ("kinetic_J", 0.5),
+        ("numerical_J", -1e-12),
+    ];
+    for (name, value) in expected {
+        assert_eq!(rows[0][name], value, "{name}");
+    }
+}
+
+/// A program that wrote whatever it was given would shift every later column.
+#[test]
+fn a_row_that_does_not_fit_the_header_is_refused() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("history.csv");
+    let mut history = History::create(&path, columns()).expect("writable");
+    let surfaces = [SurfaceRow::default()];
+    let energies = EnergySummary::default();
+    let row = Row { time: 0.0, bodies: &[], surfaces: &surfaces, energies: Some(&energies) };
+    let error = history.push(&row).expect_err("a body is missing");
+    assert!(matches!(error, ReportError::Row { what: "bodies", expected: 1, found: 0, .. }));
+    let row = Row { time: 0.0, bodies: &[body()], surfaces: &surfaces, energies: None };
+    assert!(history.push(&row).is_err(), "the energies are missing");
+}
+
+/// A program that removed an unfinished history would lose what an interrupted run had written.
+#[test]
+fn an_unfinished_history_stays_under_its_temporary_name() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("history.csv");
+    drop(History::create(&path, columns()).expect("writable"));
+    let entry = fs::read_dir(folder.path()).expect("there").next().expect("one file");
+    let name = entry.expect("readable").file_name();
+    assert!(name.to_string_lossy().ends_with(".partial"), "{name:?}");
+    assert!(!path.exists());
+}

@@ -1,0 +1,241 @@
+//! `summary.json`: what a run did, in numbers that other programs read. The keys are part of the
+//! interface; an absent value is `null`, never a missing key.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use abrade::{Ledger, Nodes, State, Worn};
+use serde::{Deserialize, Serialize};
+
+use crate::atomic;
+use crate::error::ReportError;
+
+/// The whole of `summary.json`, in the order of its keys.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Name of the scene.
+    pub scene: String,
+    /// Version of abrade.
+    pub abrade: String,
+    /// False when the run was broken off.
+    pub complete: bool,
+    /// Precision of the engine: `f32` or `f64`.
+    pub precision: String,
+    /// Contacts taken by each resolver.
+    pub resolver: ResolverCounts,
+    /// Wall time [s].
+    #[serde(rename = "wall_s")]
+    pub wall: f64,
+    /// Simulated time [s].
+    #[serde(rename = "simulated_s")]
+    pub simulated: f64,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Nodes taken through the law, rejected steps included.
+    pub node_evaluations: u64,
+    /// By the names of the scene.
+    pub surfaces: BTreeMap<String, SurfaceSummary>,
+    /// By the names of the scene.
+    pub bodies: BTreeMap<String, BodySummary>,
+    /// The ledger, where the scene asks for it.
+    pub energy: Option<EnergySummary>,
+    /// How far the wear volume may be off.
+    pub error_estimate: ErrorEstimate,
+    /// What the reader should know, in sentences.
+    pub warnings: Vec<String>,
+    /// Why the run ended, in words.
+    pub stop: Option<String>,
+}
+
+/// Contacts taken by each resolver.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ResolverCounts {
+    /// Integrated in f64 between the engine's steps.
+    pub micro: u64,
+    /// From the engine's impulses.
+    pub quasi_static: u64,
+    /// One substep per step of the engine.
+    pub lockstep: u64,
+}
+
+/// What happened to a surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SurfaceSummary {
+    /// Number of nodes.
+    pub nodes: usize,
+    /// W_V [m3] = sum of rest_area * depth (Eq. 6).
+    #[serde(rename = "wear_volume_m3")]
+    pub wear_volume: f64,
+    /// Part displaced by the normal flow [m3].
+    #[serde(rename = "wear_volume_normal_m3")]
+    pub wear_volume_normal: f64,
+    /// Part displaced by the lateral flow [m3].
+    #[serde(rename = "wear_volume_lateral_m3")]
+    pub wear_volume_lateral: f64,
+    /// Debris, by the surface's removal rule [m3].
+    #[serde(rename = "removed_volume_m3")]
+    pub removed_volume: f64,
+    /// Broken off as overhangs [m3].
+    #[serde(rename = "chip_volume_m3")]
+    pub chip_volume: f64,
+    /// Largest depth [m].
+    #[serde(rename = "max_depth_m")]
+    pub max_depth: f64,
+    /// Nodes with a depth above zero.
+    pub worn_nodes: usize,
+    /// Largest total force along minus the normals [N].
+    #[serde(rename = "peak_normal_force_N")]
+    pub peak_normal_force: f64,
+    /// Area under the touching nodes of an indented body [m2].
+    #[serde(rename = "indented_area_m2")]
+    pub indented_area: f64,
+    /// Volume per sliding distance over the last `rate_over` of a driven run [m2].
+    #[serde(rename = "wear_rate_m2")]
+    pub wear_rate: Option<f64>,
+}
+
+/// Where a body ended and how it left.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BodySummary {
+    /// Centre of mass [m].
+    #[serde(rename = "position_m")]
+    pub position: [f64; 3],
+    /// Orientation as the quaternion x, y, z, w.
+    pub rotation_xyzw: [f64; 4],
+    /// Velocity of the centre of mass [m/s].
+    #[serde(rename = "velocity_m_s")]
+    pub velocity: [f64; 3],
+    /// Angular velocity [rad/s].
+    #[serde(rename = "spin_rad_s")]
+    pub spin: [f64; 3],
+    /// Speed after over speed before [-]; `None` where there was no impact.
+    pub restitution: Option<f64>,
+    /// Angle of the velocity from the surface [deg]; `None` where there was no impact.
+    #[serde(rename = "rebound_angle_deg")]
+    pub rebound_angle: Option<f64>,
+    /// Impulse of the surfaces over the time in contact [N].
+    #[serde(rename = "mean_force_N")]
+    pub mean_force: [f64; 3],
+}
+
+/// The energies of a run [J].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct EnergySummary {
+    /// Kinetic energy at the start [J].
+    #[serde(rename = "initial_J")]
+    pub initial: f64,
+    /// Kinetic energy now [J].
+    #[serde(rename = "kinetic_J")]
+    pub kinetic: f64,
+    /// Stored in the springs [J].
+    #[serde(rename = "elastic_J")]
+    pub elastic: f64,
+    /// Dissipated by slip [J].
+    #[serde(rename = "friction_J")]
+    pub friction: f64,
+    /// Work of wear [J].
+    #[serde(rename = "wear_J")]
+    pub wear: f64,
+    /// Dissipated by damping [J].
+    #[serde(rename = "damping_J")]
+    pub damping: f64,
+    /// Done by gravity, loads and drives [J].
+    #[serde(rename = "external_work_J")]
+    pub external_work: f64,
+    /// Change made by a tangential history that is not conservative [J].
+    #[serde(rename = "history_J")]
+    pub history: f64,
+    /// Work of adhesion [J].
+    #[serde(rename = "adhesion_J")]
+    pub adhesion: f64,
+    /// Added by time integration [J].
+    #[serde(rename = "numerical_J")]
+    pub numerical: f64,
+}
+
+/// How far the wear volume may be off, relative.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ErrorEstimate {
+    /// By the time steps [-]; `None` where the run has no basis for it.
+    pub time: Option<f64>,
+    /// By the node distance [-]; `None` where the run has no basis for it.
+    pub pitch: Option<f64>,
+    /// What the estimate rests on, in words.
+    pub basis: Option<String>,
+}
+
+impl Summary {
+    /// The text of the file, indented.
+    ///
+    /// # Errors
+    /// Never for values made by this crate's structs; the writer's own.
+    pub fn to_json(&self) -> Result<String, ReportError> {
+        let mut text = serde_json::to_string_pretty(self)?;
+        text.push('\n');
+        Ok(text)
+    }
+
+    /// Writes the file `path`.
+    ///
+    /// # Errors
+    /// The file system refuses.
+    pub fn write(&self, path: &Path) -> Result<(), ReportError> {
+        atomic::write(path, self.to_json()?.as_bytes())
+    }
+}
+
+impl SurfaceSummary {
+    /// What the nodes and the tally of a surface tell. The caller adds `indented_area` [m2] and
+    /// `wear_rate` [m2], which need the body's path.
+    pub fn of(nodes: &Nodes, worn: &Worn) -> Self {
+        Self {
+            nodes: nodes.len(),
+            wear_volume: nodes.wear_volume(),
+            wear_volume_normal: worn.normal,
+            wear_volume_lateral: worn.lateral,
+            removed_volume: worn.removed,
+            chip_volume: worn.chip,
+            max_depth: nodes.depth.iter().copied().fold(0.0, f64::max),
+            worn_nodes: nodes.depth.iter().filter(|depth| **depth > 0.0).count(),
+            peak_normal_force: worn.peak_normal_force,
+            indented_area: 0.0,
+            wear_rate: None,
+        }
+    }
+}
+
+impl BodySummary {
+    /// The state of a body; the caller adds what its path tells.
+    pub fn of(state: &State) -> Self {
+        Self {
+            position: state.position.coords.into(),
+            rotation_xyzw: state.rotation.coords.into(),
+            velocity: state.velocity.into(),
+            spin: state.spin.into(),
+            restitution: None,
+            rebound_angle: None,
+            mean_force: [0.0; 3],
+        }
+    }
+}
+
+impl EnergySummary {
+    /// The ledger of all contacts, with the kinetic energy at the start and now [J].
+    pub fn of(ledger: &Ledger, initial: f64, kinetic: f64) -> Self {
+        Self {
+            initial,
+            kinetic,
+            elastic: ledger.elastic,
+            friction: ledger.friction,
+            wear: ledger.wear,
+            damping: ledger.damping,
+            external_work: ledger.external_work,
+            history: ledger.history,
+            adhesion: 0.0,
+            numerical: ledger.numerical(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

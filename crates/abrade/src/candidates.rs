@@ -1,0 +1,87 @@
+//! The nodes a body may touch next, cached over the steps of a contact.
+
+use nalgebra::{Point3, Vector3};
+
+use crate::body::State;
+use crate::grid::Grid;
+use crate::query::{bounds, clearance};
+use crate::shape::{Piece, Shape};
+use crate::surface::Surface;
+
+/// A node in the cache: what the inner loop reads, side by side.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slot {
+    pub id: u32,
+    /// Present position in the surface's frame [m].
+    pub x: Point3<f64>,
+    pub n: Vector3<f64>,
+    pub area: f64,
+}
+
+/// The cache: every node whose distance from the body was below a margin when it was made.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Candidates {
+    pub slots: Vec<Slot>,
+    /// Pose at which the cache was made, and how far the body may move from it.
+    made: Option<(State, f64)>,
+}
+
+impl Candidates {
+    /// How far any point of the body may still move before the cache must be made anew [m];
+    /// negative when it must.
+    pub(crate) fn slack(&self, shape: &Shape, state: &State) -> f64 {
+        let Some((at, margin)) = &self.made else { return -1.0 };
+        margin - travel(shape, at, state)
+    }
+
+    /// Collects the nodes within `margin` [m] of the body, which is inflated by `inflation`.
+    pub(crate) fn collect(
+        &mut self,
+        surface: &Surface,
+        shape: &Shape,
+        state: &State,
+        inflation: f64,
+        margin: f64,
+    ) {
+        self.slots.clear();
+        let reach = margin + inflation;
+        let [low, high] = reach_box(&surface.grid, shape, state, reach);
+        let nodes = &surface.nodes;
+        surface.grid.visit(&low, &high, |i| {
+            let x = nodes.position(i);
+            if clearance(shape, state, &x) < reach {
+                let slot = Slot { id: i as u32, x, n: nodes.normal[i], area: nodes.rest_area[i] };
+                self.slots.push(slot);
+            }
+        });
+        self.slots.sort_unstable_by_key(|slot| slot.id);
+        self.made = Some((*state, margin));
+    }
+}
+
+/// Bound of the distance that any point of the body moved between two poses [m].
+fn travel(shape: &Shape, from: &State, to: &State) -> f64 {
+    let shift = (to.position - from.position).norm();
+    match shape.pieces() {
+        [Piece::Ball(ball)] if ball.centre == Point3::origin() => shift,
+        _ => shift + shape.bounding_radius() * from.rotation.angle_to(&to.rotation),
+    }
+}
+
+/// Box that holds every node within `reach` of the shape. A lone ball meets the box of the nodes
+/// in a cap that is smaller than itself.
+fn reach_box(grid: &Grid, shape: &Shape, state: &State, reach: f64) -> [Point3<f64>; 2] {
+    let [Piece::Ball(ball)] = shape.pieces() else {
+        return bounds(shape, state, reach);
+    };
+    let centre = state.position + state.rotation * ball.centre.coords;
+    let [low, high] = grid.bounds();
+    let off: Vector3<f64> =
+        Vector3::from_fn(|a, _| (low[a] - centre[a]).max(centre[a] - high[a]).max(0.0));
+    let radius = ball.radius + reach;
+    let half: Vector3<f64> = Vector3::from_fn(|a, _| {
+        let others = off.norm_squared() - off[a] * off[a];
+        (radius * radius - others).max(0.0).sqrt()
+    });
+    [centre - half, centre + half]
+}

@@ -1,0 +1,151 @@
+//! Elastic part of a node's contact: normal force and tangential spring.
+
+use crate::laws::{ElasticLaw, HertzConvention};
+use crate::shape::Piece;
+use crate::surface::SurfaceLaws;
+
+/// A normal law; the coefficient comes with the touched piece.
+pub(crate) trait Elastic: Copy {
+    /// True when the tangential stiffness does not change with the overlap, so that the springs
+    /// are conservative.
+    const CONSERVATIVE: bool;
+
+    /// Normal force F [N] on a node of `area` [m2] at `overlap` d >= 0 [m].
+    fn normal_force(self, coefficient: f64, overlap: f64, area: f64) -> f64;
+
+    /// dF/dd [N/m].
+    fn normal_stiffness(self, coefficient: f64, overlap: f64, area: f64) -> f64;
+
+    /// Stiffness [N/m] of the tangential spring: T = k xi.
+    fn tangential_stiffness(self, coefficient: f64, overlap: f64, area: f64) -> f64;
+
+    /// Energy [J] of the normal spring.
+    fn normal_energy(self, coefficient: f64, overlap: f64, area: f64) -> f64;
+
+    /// Overlap [m] at which a node flat under the body reaches the hardness.
+    fn yield_overlap(self, coefficient: f64, hardness: f64, area: f64) -> f64;
+}
+
+/// Winkler foundation: p = k_w d, T = k_t a_s xi.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Foundation {
+    /// k_t / k_w = 2 (1 - nu) / (2 - nu).
+    pub tangential_ratio: f64,
+}
+
+/// Hertz nodes: F = K sqrt(R_eff) d^1.5, T = k_t sqrt(R_eff d) xi.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HertzNodes {
+    /// k_t / K = 3 (1 - nu) / (2 - nu), from K = 2E/(3(1-nu^2)) and k_t = 4G/(2-nu).
+    pub tangential_ratio: f64,
+}
+
+impl Elastic for Foundation {
+    const CONSERVATIVE: bool = true;
+
+    #[inline(always)]
+    fn normal_force(self, coefficient: f64, overlap: f64, area: f64) -> f64 {
+        coefficient * overlap * area
+    }
+
+    #[inline(always)]
+    fn normal_stiffness(self, coefficient: f64, _: f64, area: f64) -> f64 {
+        coefficient * area
+    }
+
+    #[inline(always)]
+    fn tangential_stiffness(self, coefficient: f64, _: f64, area: f64) -> f64 {
+        self.tangential_ratio * coefficient * area
+    }
+
+    #[inline(always)]
+    fn normal_energy(self, coefficient: f64, overlap: f64, area: f64) -> f64 {
+        0.5 * coefficient * overlap * overlap * area
+    }
+
+    fn yield_overlap(self, coefficient: f64, hardness: f64, _: f64) -> f64 {
+        hardness / coefficient
+    }
+}
+
+impl Elastic for HertzNodes {
+    const CONSERVATIVE: bool = false;
+
+    #[inline(always)]
+    fn normal_force(self, coefficient: f64, overlap: f64, _: f64) -> f64 {
+        coefficient * overlap * overlap.sqrt()
+    }
+
+    #[inline(always)]
+    fn normal_stiffness(self, coefficient: f64, overlap: f64, _: f64) -> f64 {
+        1.5 * coefficient * overlap.sqrt()
+    }
+
+    #[inline(always)]
+    fn tangential_stiffness(self, coefficient: f64, overlap: f64, _: f64) -> f64 {
+        self.tangential_ratio * coefficient * overlap.sqrt()
+    }
+
+    #[inline(always)]
+    fn normal_energy(self, coefficient: f64, overlap: f64, _: f64) -> f64 {
+        0.4 * coefficient * overlap * overlap * overlap.sqrt()
+    }
+
+    fn yield_overlap(self, coefficient: f64, hardness: f64, area: f64) -> f64 {
+        (area * hardness / coefficient).powf(2.0 / 3.0)
+    }
+}
+
+impl Foundation {
+    pub(crate) fn new(poisson: f64) -> Self {
+        Self { tangential_ratio: 2.0 * (1.0 - poisson) / (2.0 - poisson) }
+    }
+}
+
+impl HertzNodes {
+    pub(crate) fn new(poisson: f64) -> Self {
+        Self { tangential_ratio: 3.0 * (1.0 - poisson) / (2.0 - poisson) }
+    }
+}
+
+/// Range of the calibrated yield overlap H/k_w, in reference radii.
+const CALIBRATED_YIELD: [f64; 2] = [1e-4, 2e-2];
+
+/// The elastic coefficient of `piece` against a surface: k_w [Pa/m], K sqrt(R_eff) [N/m^1.5], or
+/// infinity for `Rigid`.
+pub(crate) fn coefficient(laws: &SurfaceLaws, piece: &Piece) -> f64 {
+    let material = &laws.material;
+    let young = material.young.unwrap_or(0.0);
+    let plane_strain = young / (1.0 - material.poisson * material.poisson);
+    match laws.elastic {
+        ElasticLaw::Foundation { stiffness: Some(stiffness) } => stiffness,
+        ElasticLaw::Foundation { stiffness: None } => {
+            let radius = reference_radius(piece);
+            let pi = std::f64::consts::PI;
+            let hertz =
+                16.0 * plane_strain * plane_strain / (9.0 * pi * pi * radius * material.hardness);
+            let [low, high] = CALIBRATED_YIELD.map(|d| d * radius);
+            material.hardness / (material.hardness / hertz).clamp(low, high)
+        }
+        ElasticLaw::HertzNodes { node_radius, convention } => {
+            let doubled = match convention {
+                HertzConvention::ElasticPair => 1.0,
+                HertzConvention::RigidBody => 2.0,
+            };
+            let effective = match piece {
+                Piece::Ball(ball) => node_radius * ball.radius / (node_radius + ball.radius),
+                Piece::Hull(_) => node_radius,
+            };
+            doubled * 2.0 / 3.0 * plane_strain * effective.sqrt()
+        }
+        ElasticLaw::Rigid => f64::INFINITY,
+    }
+}
+
+/// R of the calibration: a ball's own radius, the radius of a hull's volume-equivalent ball.
+fn reference_radius(piece: &Piece) -> f64 {
+    match piece {
+        Piece::Ball(ball) => ball.radius,
+        Piece::Hull(hull) => (hull.volume() * 0.75 / std::f64::consts::PI).cbrt(),
+    }
+}

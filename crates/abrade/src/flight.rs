@@ -1,0 +1,72 @@
+//! Flight between contacts: how long a body may move before it can touch a node.
+
+use nalgebra::Vector3;
+
+use crate::body::{Body, State};
+use crate::encounter::Loads;
+use crate::patch::Patch;
+use crate::query::bounds;
+use crate::shape::Piece;
+use crate::surface::Surface;
+
+/// Time [s] in which the body cannot touch `surface`; zero when it may touch at once.
+pub(crate) fn free_time(
+    patch: &mut Patch,
+    surface: &Surface,
+    body: &Body,
+    local: &State,
+    loads: &Loads,
+) -> f64 {
+    let force = loads.gravity.norm() + loads.force.norm() / body.inertia.mass;
+    let turning = local.spin.norm() * turning_reach(body);
+    let gaps = gaps(surface, body, local, patch.inflation());
+    let apart = gaps.map(|(gap, approach)| time_to_close(gap, approach + turning, force));
+    let apart = apart.into_iter().fold(0.0, f64::max);
+    if apart > 0.0 {
+        return apart;
+    }
+    let margin = 0.5 * surface.pitch();
+    patch.cover(surface, &body.shape, local, margin);
+    let speed = local.velocity.norm() + local.spin.norm() * turning_reach(body);
+    let covered = time_to_close(patch.slack(&body.shape, local).max(0.0), speed, force);
+    patch.time_to_touch(local).min(covered)
+}
+
+/// Largest gap between the box around the body and the box around the nodes [m]; negative when
+/// they meet.
+pub(crate) fn separation(surface: &Surface, body: &Body, local: &State, inflation: f64) -> f64 {
+    gaps(surface, body, local, inflation)
+        .into_iter()
+        .map(|(gap, _)| gap)
+        .fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Per axis: the gap between the boxes, and the speed at which it closes.
+fn gaps(surface: &Surface, body: &Body, local: &State, inflation: f64) -> [(f64, f64); 3] {
+    let [low, high] = bounds(&body.shape, local, inflation);
+    let [bottom, top] = surface.bounds();
+    std::array::from_fn(|a| {
+        let (above, below) = (low[a] - top[a], bottom[a] - high[a]);
+        let v: &Vector3<f64> = &local.velocity;
+        if above >= below { (above, -v[a]) } else { (below, v[a]) }
+    })
+}
+
+/// Shortest time in which `gap` closes at `speed`, under `acceleration` at the worst.
+fn time_to_close(gap: f64, speed: f64, acceleration: f64) -> f64 {
+    if gap <= 0.0 {
+        return 0.0;
+    }
+    let root = (speed * speed + 2.0 * acceleration * gap).sqrt();
+    // The stable form of the root of gap = speed t + acceleration t^2 / 2.
+    let time = if speed > 0.0 { 2.0 * gap / (speed + root) } else { (root - speed) / acceleration };
+    if time.is_nan() { f64::INFINITY } else { time }
+}
+
+/// Lever by which spin moves the body's outline [m].
+fn turning_reach(body: &Body) -> f64 {
+    match body.shape.pieces() {
+        [Piece::Ball(ball)] => ball.centre.coords.norm(),
+        _ => body.shape.bounding_radius(),
+    }
+}

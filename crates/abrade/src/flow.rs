@@ -1,0 +1,189 @@
+//! Flow part: which node sinks, and by how much.
+
+use nalgebra::Vector3;
+
+use crate::elastic::Elastic;
+use crate::node_law::{Advance, Drop, Loaded, NodeStep, STEEP, Spring};
+use crate::query::Query;
+
+/// A flow law.
+pub(crate) trait Flow {
+    /// The drop of a node in one step and the node after it.
+    fn flow<E: Elastic, Q: Query>(
+        &self,
+        node: &NodeStep<'_, E, Q>,
+        start: &Loaded,
+        advance: &Advance,
+        old: &Spring,
+    ) -> (Drop, Loaded);
+
+    /// Lateral load less its cap [N]; its sign over a step tells how long the gate was open.
+    fn lateral_excess(&self, area: f64, loaded: &Loaded) -> f64;
+
+    /// Cap of the normal load [N].
+    fn normal_cap(&self, area: f64, loaded: &Loaded) -> f64;
+}
+
+/// Geometry of the lateral drop.
+pub(crate) trait LateralGeometry {
+    /// Cosine by which the effective area a_i = a_s / c grows (Eq. A.1).
+    fn area_cosine(loaded: &Loaded) -> f64;
+
+    /// Lateral advance of the step down the normal [m].
+    fn advance(start: &Loaded, advance: &Advance, heading: &Vector3<f64>, n: &Vector3<f64>) -> f64;
+}
+
+/// Exact and signed: what the normal part does not explain of the advance.
+pub(crate) struct Projected;
+
+/// Eq. 5 and Eq. A.1 to the letter.
+pub(crate) struct Eq5;
+
+impl LateralGeometry for Projected {
+    #[inline(always)]
+    fn area_cosine(loaded: &Loaded) -> f64 {
+        loaded.cosine
+    }
+
+    #[inline(always)]
+    fn advance(start: &Loaded, advance: &Advance, _: &Vector3<f64>, n: &Vector3<f64>) -> f64 {
+        let m = start.touch.contact_normal;
+        let along = advance.step.dot(n);
+        let lateral = if advance.was_in_contact {
+            advance.overlap_change / start.cosine + along
+        } else {
+            advance.share * m.dot(&(advance.step - n * along)) / start.cosine
+        };
+        lateral.max(0.0)
+    }
+}
+
+impl LateralGeometry for Eq5 {
+    #[inline(always)]
+    fn area_cosine(loaded: &Loaded) -> f64 {
+        loaded.touch.literal_cosine
+    }
+
+    #[inline(always)]
+    fn advance(start: &Loaded, advance: &Advance, heading: &Vector3<f64>, _: &Vector3<f64>) -> f64 {
+        // h_i: r - h_i is the height of the body's centre above the node.
+        let r = start.touch.radius;
+        let above = r * start.touch.literal_cosine;
+        let dx = (advance.share * advance.step.dot(heading)).max(0.0);
+        let half_chord = (r * r - above * above).max(0.0).sqrt();
+        (above * above + 2.0 * half_chord * dx).sqrt() - above
+    }
+}
+
+/// Capozza & Hanley (2022): two gates, Eqs. 7-9.
+pub(crate) struct CapozzaHanley<L> {
+    pub hardness: f64,
+    /// H_l = mu_a H [Pa].
+    pub shear_hardness: f64,
+    pub lateral: std::marker::PhantomData<L>,
+}
+
+impl<L: LateralGeometry> CapozzaHanley<L> {
+    #[inline(always)]
+    fn effective_area(area: f64, loaded: &Loaded) -> f64 {
+        area / L::area_cosine(loaded).max(STEEP)
+    }
+}
+
+impl<L: LateralGeometry> Flow for CapozzaHanley<L> {
+    #[inline(always)]
+    fn flow<E: Elastic, Q: Query>(
+        &self,
+        node: &NodeStep<'_, E, Q>,
+        start: &Loaded,
+        advance: &Advance,
+        old: &Spring,
+    ) -> (Drop, Loaded) {
+        if start.cosine <= STEEP || start.normal_load <= 0.0 {
+            return (Drop::default(), *start);
+        }
+        let lateral_excess = |k: &Loaded| self.lateral_excess(node.area, k);
+        let normal_excess = |k: &Loaded| k.normal_load - self.normal_cap(node.area, k);
+        let g = lateral_excess(start);
+        let g_old =
+            if advance.was_in_contact { old.lateral_excess } else { g - start.lateral_load };
+        let open = open_share(g_old, g);
+        let mut lateral = 0.0;
+        let mut now = *start;
+        if open > 0.0 {
+            let limit = open * L::advance(start, advance, &node.heading, &node.n);
+            if limit > 0.0 {
+                (lateral, now) = match g > 0.0 {
+                    true => node.sink(0.0, start, limit, lateral_excess),
+                    false => (limit, node.at(limit)),
+                };
+            }
+        }
+        let mut normal = 0.0;
+        if normal_excess(&now) > 0.0 {
+            // The bound is the law: a node sinks with the body, never ahead of it.
+            let limit = (-advance.share * advance.step.dot(&node.n)).max(0.0);
+            (normal, now) = node.sink(lateral, &now, limit, normal_excess);
+        }
+        (Drop { normal, lateral }, now)
+    }
+
+    #[inline(always)]
+    fn lateral_excess(&self, area: f64, loaded: &Loaded) -> f64 {
+        loaded.lateral_load - Self::effective_area(area, loaded) * self.shear_hardness
+    }
+
+    #[inline(always)]
+    fn normal_cap(&self, area: f64, loaded: &Loaded) -> f64 {
+        Self::effective_area(area, loaded) * self.hardness
+    }
+}
+
+/// Share of the step over which the lateral gate was open: its excess taken as linear in time.
+#[inline(always)]
+fn open_share(before: f64, after: f64) -> f64 {
+    match (before >= 0.0, after > 0.0) {
+        (true, true) => 1.0,
+        (false, true) => after / (after - before),
+        (_, false) if before > 0.0 => before / (before - after),
+        _ => 0.0,
+    }
+}
+
+/// Pressure H normal to the face: one gate on F = a_s H / c, no lateral part.
+pub(crate) struct NormalPressure {
+    pub hardness: f64,
+}
+
+impl Flow for NormalPressure {
+    #[inline(always)]
+    fn flow<E: Elastic, Q: Query>(
+        &self,
+        node: &NodeStep<'_, E, Q>,
+        start: &Loaded,
+        advance: &Advance,
+        _: &Spring,
+    ) -> (Drop, Loaded) {
+        let excess = |k: &Loaded| k.normal_force - node.area * self.hardness / k.cosine.max(STEEP);
+        if start.cosine <= STEEP || excess(start) <= 0.0 {
+            return (Drop::default(), *start);
+        }
+        let whole = if advance.was_in_contact {
+            advance.overlap_change
+        } else {
+            advance.share * start.touch.contact_normal.dot(&advance.step)
+        };
+        let (normal, now) = node.sink(0.0, start, (whole / start.cosine).max(0.0), excess);
+        (Drop { normal, lateral: 0.0 }, now)
+    }
+
+    #[inline(always)]
+    fn lateral_excess(&self, _: f64, _: &Loaded) -> f64 {
+        0.0
+    }
+
+    #[inline(always)]
+    fn normal_cap(&self, area: f64, loaded: &Loaded) -> f64 {
+        area * self.hardness * loaded.normal_load / loaded.normal_force.max(f64::MIN_POSITIVE)
+    }
+}

@@ -1,0 +1,220 @@
+//! The inner loop's one node: query -> elastic -> friction -> flow -> drop.
+//!
+//! A return mapping, not a rate: within a step a flowing node sinks by the drop after which its
+//! force is at its cap. The paper moves a node by V dt whenever it finds a force above the cap;
+//! that un-wears on rebound and does not converge.
+
+use nalgebra::{Point3, Vector3};
+
+use crate::elastic::Elastic;
+use crate::flow::Flow;
+use crate::query::{Query, Touch};
+
+/// Cosine below which a face is too steep for a node to be pushed down by it.
+pub(crate) const STEEP: f64 = 0.05;
+
+/// What a node remembers of its contact from step to step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Spring {
+    /// Tangential stretch xi [m].
+    pub stretch: Vector3<f64>,
+    /// d [m]; zero without contact.
+    pub overlap: f64,
+    /// |T| [N].
+    pub tangential_force: f64,
+    /// Lateral load less its cap [N].
+    pub lateral_excess: f64,
+    /// Force along minus the node's normal [N].
+    pub normal_load: f64,
+    /// Drops of the step [m].
+    pub drop: Drop,
+    /// Sine of the angle at which the face attacks.
+    pub attack: f64,
+}
+
+/// Parts of a step's drop [m].
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Drop {
+    pub normal: f64,
+    pub lateral: f64,
+}
+
+/// The body's motion over the step, at mid-step, in the surface's frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Motion {
+    pub velocity: Vector3<f64>,
+    pub spin: Vector3<f64>,
+    pub dt: f64,
+}
+
+/// A node in one step, before its drop is known.
+pub(crate) struct NodeStep<'a, E, Q> {
+    pub query: &'a Q,
+    pub elastic: E,
+    pub x: Point3<f64>,
+    pub n: Vector3<f64>,
+    pub area: f64,
+    pub friction: f64,
+    /// Unit tangential direction of the body's motion; zero at rest.
+    pub heading: Vector3<f64>,
+    /// Tangential stretch before the drop.
+    pub trial_stretch: Vector3<f64>,
+}
+
+/// The node after a drop: geometry and force.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Loaded {
+    pub touch: Touch,
+    /// c = -m . n.
+    pub cosine: f64,
+    /// F [N], along m.
+    pub normal_force: f64,
+    /// T [N].
+    pub tangential: Vector3<f64>,
+    /// |xi| cut off by slip, and the stretch that is left.
+    pub slip: f64,
+    pub stretch: Vector3<f64>,
+    /// F_z: force along minus n.
+    pub normal_load: f64,
+    /// F_x: force along the heading.
+    pub lateral_load: f64,
+}
+
+impl<E: Elastic, Q: Query> NodeStep<'_, E, Q> {
+    /// The node after sinking by `drop` [m]; exact geometry.
+    #[inline(always)]
+    pub(crate) fn at(&self, drop: f64) -> Loaded {
+        let touch = self.query.touch(&(self.x - self.n * drop), &self.n);
+        let m = touch.contact_normal;
+        let overlap = touch.overlap.max(0.0);
+        let force = self.elastic.normal_force(touch.coefficient, overlap, self.area);
+        let spring = self.elastic.tangential_stiffness(touch.coefficient, overlap, self.area);
+        let xi = self.trial_stretch + (self.n - m * self.n.dot(&m)) * drop;
+        let (length, limit) = (xi.norm(), self.friction * force);
+        let kept = if spring * length > limit { limit / (spring * length) } else { 1.0 };
+        let tangential = xi * (kept * spring);
+        let total = m * force + tangential;
+        Loaded {
+            touch,
+            cosine: -m.dot(&self.n),
+            normal_force: force,
+            tangential,
+            slip: (1.0 - kept) * length,
+            stretch: xi * kept,
+            normal_load: -total.dot(&self.n),
+            lateral_load: total.dot(&self.heading),
+        }
+    }
+
+    /// The smallest drop within `limit` that brings `excess` to zero, or `limit` if none does.
+    /// `excess(start) > 0` at `from`. Illinois' regula falsi: the function is nearly linear.
+    #[inline(always)]
+    pub(crate) fn sink(
+        &self,
+        from: f64,
+        start: &Loaded,
+        limit: f64,
+        excess: impl Fn(&Loaded) -> f64,
+    ) -> (f64, Loaded) {
+        let (mut low, mut g_low) = (0.0, excess(start));
+        let mut at = self.at(from + limit);
+        let (mut high, mut g_high) = (limit, excess(&at));
+        if g_high >= 0.0 || limit <= 0.0 {
+            return (limit.max(0.0), if limit > 0.0 { at } else { *start });
+        }
+        let tolerance = ROOT * (g_low - g_high);
+        let mut drop = high;
+        let mut side = 0;
+        for _ in 0..ROOT_STEPS {
+            drop = (low * g_high - high * g_low) / (g_high - g_low);
+            at = self.at(from + drop);
+            let g = excess(&at);
+            if g.abs() <= tolerance {
+                break;
+            }
+            if g > 0.0 {
+                (low, g_low) = (drop, g);
+                g_high *= if side == 1 { 0.5 } else { 1.0 };
+                side = 1;
+            } else {
+                (high, g_high) = (drop, g);
+                g_low *= if side == -1 { 0.5 } else { 1.0 };
+                side = -1;
+            }
+        }
+        (drop, at)
+    }
+}
+
+/// Relative tolerance of the root, and the number of steps after which it is taken as it is.
+const ROOT: f64 = 1e-9;
+const ROOT_STEPS: usize = 40;
+
+/// A node's answer to one step.
+pub(crate) struct Answer {
+    pub spring: Spring,
+    pub loaded: Loaded,
+}
+
+/// Takes a node through one step; None when it is out of contact at the end.
+#[inline(always)]
+pub(crate) fn resolve<E: Elastic, Q: Query, F: Flow>(
+    flow: &F,
+    mut node: NodeStep<'_, E, Q>,
+    old: &Spring,
+    motion: &Motion,
+) -> Option<Answer> {
+    let trial = node.query.touch(&node.x, &node.n);
+    if trial.overlap <= 0.0 {
+        return None;
+    }
+    let m = trial.contact_normal;
+    let was_in_contact = old.overlap > 0.0;
+    let turning = motion.spin.cross(&trial.arm);
+    let step = (motion.velocity + turning) * motion.dt;
+    let approach = m.dot(&step);
+    // Share of the step spent in contact.
+    let share =
+        if was_in_contact || approach <= 0.0 { 1.0 } else { (trial.overlap / approach).min(1.0) };
+    let carried = if was_in_contact { transport(&old.stretch, &m) } else { Vector3::zeros() };
+    node.trial_stretch = carried + (step - m * approach) * share;
+    let tangential = motion.velocity - node.n * motion.velocity.dot(&node.n);
+    let speed = tangential.norm();
+    node.heading = if speed > 0.0 { tangential / speed } else { tangential };
+    let advance = Advance {
+        // v* splits the advance into its normal and tangential parts: the full material velocity
+        // would let spin leak between the gates.
+        step: (motion.velocity + m * m.dot(&turning)) * motion.dt,
+        share,
+        was_in_contact,
+        overlap_change: trial.overlap - old.overlap,
+    };
+    let start = node.at(0.0);
+    let (drop, loaded) = flow.flow(&node, &start, &advance, old);
+    let spring = Spring {
+        stretch: loaded.stretch,
+        overlap: loaded.touch.overlap.max(f64::MIN_POSITIVE),
+        tangential_force: loaded.tangential.norm(),
+        lateral_excess: flow.lateral_excess(node.area, &loaded),
+        normal_load: loaded.normal_load,
+        drop,
+        attack: m.dot(&node.heading),
+    };
+    Some(Answer { spring, loaded })
+}
+
+/// The body's advance over the step, as the flow laws split it.
+pub(crate) struct Advance {
+    /// dC = v* dt [m].
+    pub step: Vector3<f64>,
+    pub share: f64,
+    pub was_in_contact: bool,
+    pub overlap_change: f64,
+}
+
+/// The stretch turned into the new tangent plane, its length kept.
+fn transport(stretch: &Vector3<f64>, m: &Vector3<f64>) -> Vector3<f64> {
+    let projected = stretch - m * stretch.dot(m);
+    let (old, new) = (stretch.norm(), projected.norm());
+    if new > 0.0 { projected * (old / new) } else { projected }
+}

@@ -1,0 +1,5 @@
+//! Tests of the whole: physics against references that this project did not write.
+
+mod paper;
+mod rig;
+mod table;

@@ -1,0 +1,118 @@
+//! Set-ups of 06 shared by the tests: the paper's plate and bodies, one impact at a time.
+
+use abrade::{
+    Body, ElasticLaw, Encounter, EncounterSettings, FlowLaw, HertzConvention, HexStrip, Inertia,
+    Lateral, Loads, Material, Placed, Removal, Shape, State, Surface, SurfaceLaws, Until,
+};
+use nalgebra::{Isometry3, Point3, Vector3};
+
+/// A ball fired at a plate.
+#[derive(Clone)]
+pub struct Impact {
+    pub radius: f64,
+    pub density: f64,
+    pub speed: f64,
+    /// From the surface [deg].
+    pub angle: f64,
+    pub at: [f64; 2],
+    pub strip: HexStrip,
+    pub laws: SurfaceLaws,
+    pub accuracy: f64,
+    pub ledger: bool,
+}
+
+/// What is left of it.
+pub struct Outcome {
+    pub surface: Surface,
+    pub body: Body,
+    pub advance: abrade::Advance,
+    pub ledger: abrade::Ledger,
+    pub restitution: f64,
+    pub rebound_angle: f64,
+    pub energy: [f64; 2],
+}
+
+pub fn laws(hardness: f64, elastic: ElasticLaw, flow: FlowLaw) -> SurfaceLaws {
+    let material = Material {
+        hardness,
+        shear_ratio: 0.25,
+        young: Some(200e9),
+        poisson: 0.3,
+        friction: 0.5,
+    };
+    SurfaceLaws { material, elastic, flow, removal: Removal::All }
+}
+
+pub fn hertz() -> ElasticLaw {
+    ElasticLaw::HertzNodes { node_radius: 0.25e-3, convention: HertzConvention::ElasticPair }
+}
+
+pub fn projected() -> FlowLaw {
+    FlowLaw::CapozzaHanley { lateral: Lateral::Projected }
+}
+
+pub fn paper_lattice() -> HexStrip {
+    HexStrip::with_nodes(93.5e-3, 16.8e-3, 5012.0)
+}
+
+/// "impact" and "normal" of 06 section 1.
+pub fn paper(case: &str, angle: f64, at: [f64; 2]) -> Impact {
+    let (radius, density, speed, hardness) = match case {
+        "normal" => (10e-3, 8000.0, 45.0, 1.7e9),
+        _ => (3e-3, 2500.0, 35.0, 6.6e9),
+    };
+    let laws = laws(hardness, hertz(), projected());
+    Impact {
+        radius,
+        density,
+        speed,
+        angle,
+        at,
+        strip: paper_lattice(),
+        laws,
+        accuracy: 1e-3,
+        ledger: false,
+    }
+}
+
+impl Impact {
+    pub fn run(&self) -> Outcome {
+        let surface = Surface::hex_strip(self.strip, self.laws.clone()).expect("a plate");
+        self.run_on(surface)
+    }
+
+    pub fn run_on(&self, mut surface: Surface) -> Outcome {
+        let inflation = match self.laws.elastic {
+            ElasticLaw::HertzNodes { node_radius, .. } => node_radius,
+            _ => 0.0,
+        };
+        let mut state = State::at(Point3::new(self.at[0], self.at[1], self.radius + inflation + 1e-6));
+        let angle = self.angle.to_radians();
+        state.velocity = Vector3::new(angle.cos(), 0.0, -angle.sin()) * self.speed;
+        let mut body = Body {
+            shape: Shape::ball(self.radius).expect("a ball"),
+            inertia: Inertia::of_ball(self.radius, self.density),
+            state,
+            rotation_locked: false,
+        };
+        let settings =
+            EncounterSettings { accuracy: self.accuracy, ledger: self.ledger, ..Default::default() };
+        let before = body.inertia.kinetic_energy(&body.state);
+        let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
+        let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+        let advance = encounter
+            .advance(&mut body, &mut placed, &Loads::default(), 1e-3, Until::FirstExit, &mut ())
+            .expect("an impact");
+        let v = body.state.velocity;
+        let after = body.inertia.kinetic_energy(&body.state);
+        Outcome {
+            restitution: v.norm() / self.speed,
+            rebound_angle: v.z.atan2(v.xy().norm()).to_degrees(),
+            ledger: *encounter.ledger(),
+            energy: [before, after],
+            surface,
+            body,
+            advance,
+        }
+    }
+}
