@@ -17,9 +17,17 @@ fn paper_lattice_impacts_agree_with_the_reference() {
             && (got.rebound_angle - number(&row, "th_r_deg")).abs() <= 0.05;
         let line = format!(
             "{:8} {:>3} {:7} W {w:.7} / {expected:.7}  COR {:.6} / {}  angle {:.4} / {}  spin {:.1} / {}  steps {} nodes {}",
-            row["case"], row["theta"], row["landing"], got.restitution, row["COR"],
-            got.rebound_angle, row["th_r_deg"], got.body.state.spin.y, row["omega_y_rad_s"],
-            got.advance.steps, got.advance.node_evaluations
+            row["case"],
+            row["theta"],
+            row["landing"],
+            got.restitution,
+            row["COR"],
+            got.rebound_angle,
+            row["th_r_deg"],
+            got.body.state.spin.y,
+            row["omega_y_rad_s"],
+            got.advance.steps,
+            got.advance.node_evaluations
         );
         println!("{line}");
         if !fine {

@@ -33,13 +33,8 @@ pub struct Outcome {
 }
 
 pub fn laws(hardness: f64, elastic: ElasticLaw, flow: FlowLaw) -> SurfaceLaws {
-    let material = Material {
-        hardness,
-        shear_ratio: 0.25,
-        young: Some(200e9),
-        poisson: 0.3,
-        friction: 0.5,
-    };
+    let material =
+        Material { hardness, shear_ratio: 0.25, young: Some(200e9), poisson: 0.3, friction: 0.5 };
     SurfaceLaws { material, elastic, flow, removal: Removal::All }
 }
 
@@ -70,7 +65,7 @@ pub fn paper(case: &str, angle: f64, at: [f64; 2]) -> Impact {
         at,
         strip: paper_lattice(),
         laws,
-        accuracy: 1e-3,
+        accuracy: 2e-4,
         ledger: false,
     }
 }
@@ -86,7 +81,8 @@ impl Impact {
             ElasticLaw::HertzNodes { node_radius, .. } => node_radius,
             _ => 0.0,
         };
-        let mut state = State::at(Point3::new(self.at[0], self.at[1], self.radius + inflation + 1e-6));
+        let mut state =
+            State::at(Point3::new(self.at[0], self.at[1], self.radius + inflation + 1e-10));
         let angle = self.angle.to_radians();
         state.velocity = Vector3::new(angle.cos(), 0.0, -angle.sin()) * self.speed;
         let mut body = Body {
@@ -95,8 +91,11 @@ impl Impact {
             state,
             rotation_locked: false,
         };
-        let settings =
-            EncounterSettings { accuracy: self.accuracy, ledger: self.ledger, ..Default::default() };
+        let settings = EncounterSettings {
+            accuracy: self.accuracy,
+            ledger: self.ledger,
+            ..Default::default()
+        };
         let before = body.inertia.kinetic_energy(&body.state);
         let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
         let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];

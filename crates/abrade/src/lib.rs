@@ -27,6 +27,7 @@ mod query;
 mod rotation;
 mod shape;
 mod surface;
+mod union_inertia;
 
 pub use body::{Body, Inertia, State};
 pub use encounter::{
@@ -40,3 +41,4 @@ pub use material::Material;
 pub use nodes::Nodes;
 pub use shape::{Ball, Piece, Shape};
 pub use surface::{HexStrip, Surface, SurfaceLaws, Worn};
+pub use union_inertia::{UnionInertia, overlapping_pairs};

@@ -212,7 +212,7 @@ pub(crate) struct Advance {
     pub overlap_change: f64,
 }
 
-/// The stretch turned into the new tangent plane, its length kept.
+/// The stretch turned into the new tangent plane, its length and so its energy kept.
 fn transport(stretch: &Vector3<f64>, m: &Vector3<f64>) -> Vector3<f64> {
     let projected = stretch - m * stretch.dot(m);
     let (old, new) = (stretch.norm(), projected.norm());

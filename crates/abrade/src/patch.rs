@@ -37,8 +37,9 @@ pub(crate) struct Reaction {
     /// Sums of the elastic stiffnesses [N/m].
     pub normal_stiffness: f64,
     pub tangential_stiffness: f64,
-    /// Sum of the nodes' normal loads [N].
+    /// Sum of the nodes' normal loads [N], and the same along their normals.
     pub normal_load: f64,
+    pub push: Vector3<f64>,
     /// Sums of the effective areas of the nodes that flow [m2].
     pub normal_flow_area: f64,
     pub lateral_flow_area: f64,
@@ -59,6 +60,7 @@ impl Reaction {
         self.normal_stiffness += other.normal_stiffness;
         self.tangential_stiffness += other.tangential_stiffness;
         self.normal_load += other.normal_load;
+        self.push += pose * other.push;
         self.overlap_change = self.overlap_change.max(other.overlap_change);
         self.reach = self.reach.max(other.reach);
         self.touching += other.touching;
@@ -281,6 +283,7 @@ impl Patch {
             sum.normal_stiffness += stiffness;
             sum.tangential_stiffness += spring;
             sum.normal_load += k.normal_load;
+            sum.push += slot.n * k.normal_load;
             let flow_area = slot.area / k.cosine.max(crate::node_law::STEEP);
             sum.normal_flow_area += if drop.normal > 0.0 { flow_area } else { 0.0 };
             sum.lateral_flow_area += if drop.lateral > 0.0 { flow_area } else { 0.0 };
