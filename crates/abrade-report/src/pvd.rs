@@ -60,7 +60,8 @@ impl Series {
         );
         for (number, time) in self.times.iter().enumerate() {
             let file = escape(&self.file_name(number));
-            let line = writeln!(text, "<DataSet timestep=\"{time:e}\" part=\"0\" file=\"{file}\"/>");
+            let line =
+                writeln!(text, "<DataSet timestep=\"{time:e}\" part=\"0\" file=\"{file}\"/>");
             line.expect("a string takes every text");
         }
         text.push_str("</Collection>\n</VTKFile>\n");

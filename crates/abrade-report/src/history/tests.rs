@@ -29,12 +29,8 @@ fn every_value_stands_under_its_name_and_reads_back_exactly() {
     let mut history = History::create(&path, columns()).expect("writable");
     let energies = EnergySummary { kinetic: 0.5, numerical: -1e-12, ..Default::default() };
     let surface = SurfaceRow { wear_volume: 1.25e-13, max_depth: 3e-6 };
-    let row = Row {
-        time: 1e-6,
-        bodies: &[body()],
-        surfaces: &[surface],
-        energies: Some(&energies),
-    };
+    let row =
+        Row { time: 1e-6, bodies: &[body()], surfaces: &[surface], energies: Some(&energies) };
     history.push(&row).expect("writable");
     assert!(!path.exists(), "the final name must wait for the end");
     history.finish().expect("renamed");

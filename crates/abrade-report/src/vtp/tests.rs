@@ -135,8 +135,7 @@ fn bodies_share_a_file_and_keep_their_faces() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("bodies_0000.vtp");
     let bodies = [still, rolling].map(|state| (mesh.clone(), state));
-    let placed: Vec<_> =
-        bodies.iter().map(|(mesh, state)| PlacedBody { mesh, state }).collect();
+    let placed: Vec<_> = bodies.iter().map(|(mesh, state)| PlacedBody { mesh, state }).collect();
     write_bodies(&path, &placed).expect("writable");
     let file = fs::read(&path).expect("there");
     assert_eq!(integers(&file, "Polys", "connectivity"), [0, 1, 2, 3, 4, 5]);

@@ -1,0 +1,205 @@
+//! A sheet to draw on, in pixels of the finished picture. It is kept larger than the picture and
+//! averaged down at the end, which smooths every edge.
+
+use std::sync::OnceLock;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::register_font;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::colour::{INK, Rgb};
+use crate::error::ReportError;
+
+/// Sheet pixels per picture pixel.
+pub(super) const SCALE: usize = 2;
+
+const REGULAR: &[u8] = include_bytes!("../../fonts/OpenSans-Regular.ttf");
+const BOLD: &[u8] = include_bytes!("../../fonts/OpenSans-Semibold.ttf");
+const FONT: &str = "abrade";
+/// Mean width of a letter over its size.
+const LETTER: f64 = 0.55;
+
+/// The sheet.
+pub(super) struct Canvas {
+    size: [usize; 2],
+    pixels: Vec<u8>,
+}
+
+/// A part of the picture [pixels].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Rect {
+    pub(super) left: f64,
+    pub(super) right: f64,
+    pub(super) top: f64,
+    pub(super) bottom: f64,
+}
+
+/// How a text looks.
+#[derive(Clone, Copy)]
+pub(super) struct Text {
+    pub(super) size: f64,
+    pub(super) bold: bool,
+    pub(super) colour: Rgb,
+    pub(super) align: Align,
+    /// Read from below.
+    pub(super) upright: bool,
+}
+
+/// Which point of a text is placed.
+#[derive(Clone, Copy)]
+pub(super) struct Align(HPos, VPos);
+
+impl Align {
+    pub(super) const LEFT: Self = Self(HPos::Left, VPos::Center);
+    pub(super) const RIGHT: Self = Self(HPos::Right, VPos::Center);
+    pub(super) const CENTRE: Self = Self(HPos::Center, VPos::Center);
+}
+
+impl Default for Text {
+    fn default() -> Self {
+        Self { size: 16.0, bold: false, colour: INK, align: Align::CENTRE, upright: false }
+    }
+}
+
+impl Text {
+    /// `text`, cut to about `width` pixels.
+    pub(super) fn fitted(&self, text: &str, width: f64) -> String {
+        let letters = (width / (LETTER * self.size)) as usize;
+        match text.chars().count() > letters {
+            true => text.chars().take(letters.saturating_sub(1)).chain(['…']).collect(),
+            false => text.to_owned(),
+        }
+    }
+}
+
+impl Canvas {
+    /// A white sheet for a picture of this size.
+    pub(super) fn new(width: usize, height: usize) -> Result<Self, ReportError> {
+        static FONTS: OnceLock<bool> = OnceLock::new();
+        let known = *FONTS.get_or_init(|| {
+            register_font(FONT, FontStyle::Normal, REGULAR).is_ok()
+                && register_font(FONT, FontStyle::Bold, BOLD).is_ok()
+        });
+        let size = [width * SCALE, height * SCALE];
+        match known {
+            true => Ok(Self { size, pixels: vec![255; size[0] * size[1] * 3] }),
+            false => Err(ReportError::Font { name: "Open Sans" }),
+        }
+    }
+
+    /// Sets the sheet's own pixels inside `rect`, row by row; `None` leaves one as it is.
+    pub(super) fn paint(&mut self, rect: &Rect, pixel: impl Fn(usize, usize) -> Option<Rgb>) {
+        let [left, top] = [sheet(rect.left) as usize, sheet(rect.top) as usize];
+        let [width, height] = rect.sheet_size();
+        for row in 0..height {
+            for column in 0..width {
+                if let Some(colour) = pixel(column, row) {
+                    let i = 3 * ((top + row) * self.size[0] + left + column);
+                    self.pixels[i..i + 3].copy_from_slice(&colour);
+                }
+            }
+        }
+    }
+
+    pub(super) fn line(
+        &mut self,
+        points: &[[f64; 2]],
+        colour: Rgb,
+        width: f64,
+    ) -> Result<(), ReportError> {
+        let points: Vec<_> = points.iter().map(|p| (sheet(p[0]), sheet(p[1]))).collect();
+        let style = rgb(colour).stroke_width(sheet(width).max(1) as u32);
+        self.draw(|area| area.draw(&PathElement::new(points, style)))
+    }
+
+    pub(super) fn fill(&mut self, corners: &[[f64; 2]], colour: Rgb) -> Result<(), ReportError> {
+        let corners: Vec<_> = corners.iter().map(|p| (sheet(p[0]), sheet(p[1]))).collect();
+        self.draw(|area| area.draw(&Polygon::new(corners, rgb(colour).filled())))
+    }
+
+    pub(super) fn dot(
+        &mut self,
+        at: [f64; 2],
+        radius: f64,
+        colour: Rgb,
+    ) -> Result<(), ReportError> {
+        let at = (sheet(at[0]), sheet(at[1]));
+        self.draw(|area| area.draw(&Circle::new(at, sheet(radius), rgb(colour).filled())))
+    }
+
+    pub(super) fn frame(&mut self, rect: &Rect, colour: Rgb) -> Result<(), ReportError> {
+        let Rect { left, right, top, bottom } = *rect;
+        let corners = [[left, top], [right, top], [right, bottom], [left, bottom], [left, top]];
+        self.line(&corners, colour, 1.0)
+    }
+
+    pub(super) fn text(&mut self, at: [f64; 2], text: &str, look: Text) -> Result<(), ReportError> {
+        let style = if look.bold { FontStyle::Bold } else { FontStyle::Normal };
+        let turn = if look.upright { FontTransform::Rotate270 } else { FontTransform::None };
+        let font = (FONT, look.size * SCALE as f64, style).into_font().transform(turn);
+        let Align(across, down) = look.align;
+        let style = font.color(&rgb(look.colour)).pos(Pos::new(across, down));
+        self.draw(|area| area.draw_text(text, &style, (sheet(at[0]), sheet(at[1]))))
+    }
+
+    /// The finished picture as PNG.
+    pub(super) fn to_png(&self) -> Result<Vec<u8>, ReportError> {
+        let [width, height] = self.size.map(|side| side / SCALE);
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, width as u32, height as u32);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&self.averaged(width, height))?;
+        writer.finish()?;
+        Ok(bytes)
+    }
+
+    fn averaged(&self, width: usize, height: usize) -> Vec<u8> {
+        let mut out = Vec::with_capacity(width * height * 3);
+        for i in 0..width * height * 3 {
+            let (pixel, channel) = (i / 3, i % 3);
+            let (row, column) = (pixel / width, pixel % width);
+            let mut sum = 0;
+            for (dy, dx) in (0..SCALE * SCALE).map(|k| (k / SCALE, k % SCALE)) {
+                let at = (row * SCALE + dy) * self.size[0] + column * SCALE + dx;
+                sum += usize::from(self.pixels[3 * at + channel]);
+            }
+            out.push(((sum + SCALE * SCALE / 2) / (SCALE * SCALE)) as u8);
+        }
+        out
+    }
+
+    fn draw<E: std::error::Error + Send + Sync + 'static>(
+        &mut self,
+        act: impl FnOnce(&DrawingArea<BitMapBackend<'_>, Shift>) -> Result<(), E>,
+    ) -> Result<(), ReportError> {
+        let size = (self.size[0] as u32, self.size[1] as u32);
+        let area = BitMapBackend::with_buffer(&mut self.pixels, size).into_drawing_area();
+        act(&area).map_err(ReportError::draw)
+    }
+}
+
+impl Rect {
+    pub(super) fn width(&self) -> f64 {
+        self.right - self.left
+    }
+
+    pub(super) fn height(&self) -> f64 {
+        self.bottom - self.top
+    }
+
+    /// Columns and rows of the sheet inside.
+    pub(super) fn sheet_size(&self) -> [usize; 2] {
+        [self.width(), self.height()].map(|side| (side * SCALE as f64).round() as usize)
+    }
+}
+
+fn sheet(pixels: f64) -> i32 {
+    (pixels * SCALE as f64).round() as i32
+}
+
+fn rgb([red, green, blue]: Rgb) -> RGBColor {
+    RGBColor(red, green, blue)
+}

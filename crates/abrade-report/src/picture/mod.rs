@@ -1,0 +1,117 @@
+//! `surface.png`: the worn surface from above, coloured by depth, and a cross-section along x
+//! through its deepest node.
+//!
+//! `view` chooses what is seen, `raster` spreads the nodes over pixels, `plan` and `section` draw
+//! the two halves on a `canvas`. The cost is bounded by pixels and by the nodes inside the view.
+
+mod axis;
+mod canvas;
+mod colour;
+mod plan;
+mod raster;
+mod section;
+mod view;
+
+use std::path::Path;
+
+use abrade::Nodes;
+use nalgebra::Point3;
+
+use crate::atomic;
+use crate::error::ReportError;
+use crate::units::{counted, of_length, of_volume, with_unit};
+use canvas::{Align, Canvas, Rect, Text};
+use view::View;
+
+/// What a picture shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Picture<'a> {
+    /// Headline, usually the scene's name.
+    pub title: &'a str,
+    /// The surface; drawn in its own frame, seen against its mean normal.
+    pub nodes: &'a Nodes,
+    /// Places to point at, such as where a body ended.
+    pub marks: &'a [Mark<'a>],
+}
+
+/// A place on the surface and its name.
+#[derive(Clone, Copy, Debug)]
+pub struct Mark<'a> {
+    /// Text beside the place.
+    pub label: &'a str,
+    /// In the surface's frame [m].
+    pub position_local: Point3<f64>,
+}
+
+/// Width of a picture [pixels]; its height follows the shape of the worn region.
+pub const WIDTH: usize = 1400;
+
+/// Left and right edge of both halves [pixels].
+const SIDES: (f64, f64) = (100.0, 1250.0);
+/// Top of the plan view [pixels].
+const PLAN_TOP: f64 = 112.0;
+/// Least and largest height of the plan view [pixels].
+const PLAN_HEIGHT: (f64, f64) = (300.0, 620.0);
+/// From the plan view to the cross-section [pixels].
+const GAP: f64 = 88.0;
+/// Height of the cross-section [pixels].
+const SECTION_HEIGHT: f64 = 220.0;
+/// Below the cross-section [pixels].
+const FOOT: f64 = 72.0;
+
+impl Picture<'_> {
+    /// The picture as the bytes of a PNG file.
+    ///
+    /// # Errors
+    /// The drawing library's own.
+    pub fn to_png(&self) -> Result<Vec<u8>, ReportError> {
+        let width = SIDES.1 - SIDES.0;
+        let view = View::of(self.nodes, PLAN_HEIGHT.0 / width, PLAN_HEIGHT.1 / width);
+        let plan = Rect {
+            left: SIDES.0,
+            right: SIDES.1,
+            top: PLAN_TOP,
+            bottom: PLAN_TOP + (width * view.aspect()).round(),
+        };
+        let top = plan.bottom + GAP;
+        let section = Rect { top, bottom: top + SECTION_HEIGHT, ..plan };
+        let mut canvas = Canvas::new(WIDTH, (section.bottom + FOOT) as usize)?;
+        self.head(&mut canvas, &view)?;
+        plan::draw(&mut canvas, &plan, &view, self.nodes, self.marks)?;
+        section::draw(&mut canvas, &section, &view, self.nodes)?;
+        canvas.to_png()
+    }
+
+    /// Writes the picture to `path`.
+    ///
+    /// # Errors
+    /// The drawing library's own, or the file system refuses.
+    pub fn write(&self, path: &Path) -> Result<(), ReportError> {
+        atomic::write(path, &self.to_png()?)
+    }
+
+    fn head(&self, canvas: &mut Canvas, view: &View) -> Result<(), ReportError> {
+        let title = Text { size: 27.0, bold: true, align: Align::LEFT, ..Text::default() };
+        canvas.text([SIDES.0, 38.0], &title.fitted(self.title, 1200.0), title)?;
+        let caption = Text { size: 18.0, align: Align::LEFT, colour: colour::SOFT, ..title };
+        canvas.text([SIDES.0, 74.0], &self.caption(view), Text { bold: false, ..caption })
+    }
+
+    fn caption(&self, view: &View) -> String {
+        let Some(deepest) = &view.deepest else {
+            return format!("no wear  ·  {} nodes", counted(self.nodes.len()));
+        };
+        let volume = self.nodes.wear_volume();
+        let worn = self.nodes.depth.iter().filter(|depth| **depth > 0.0).count();
+        format!(
+            "wear volume {}  ·  largest depth {}  ·  {} of {} nodes worn",
+            with_unit(volume, of_volume(volume)),
+            with_unit(deepest.depth, of_length(deepest.depth)),
+            counted(worn),
+            counted(self.nodes.len()),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests;
