@@ -4,3 +4,4 @@ mod foundation;
 mod paper;
 mod rig;
 mod table;
+mod theory;

@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use crate::body::State;
 use crate::grid::Grid;
-use crate::query::{bounds, clearance};
+use crate::query::{bounds, clearance, column_meets};
 use crate::shape::{Piece, Shape};
 use crate::surface::Surface;
 
@@ -56,6 +56,34 @@ impl Candidates {
         });
         self.slots.sort_unstable_by_key(|slot| slot.id);
         self.made = Some((*state, margin));
+    }
+
+    /// Collects the nodes whose column, at or below the node, comes within `margin` [m] of the
+    /// body.
+    pub(crate) fn collect_columns(
+        &mut self,
+        surface: &Surface,
+        shape: &Shape,
+        state: &State,
+        margin: f64,
+    ) {
+        self.slots.clear();
+        let [low, high] = reach_box(&surface.grid, shape, state, margin);
+        let nodes = &surface.nodes;
+        surface.grid.visit(&low, &high, |i| {
+            let x = nodes.position(i);
+            let n = nodes.normal[i];
+            if column_meets(shape, state, &x, &n, margin) {
+                self.slots.push(Slot { id: i as u32, x, n, area: nodes.rest_area[i] });
+            }
+        });
+        self.slots.sort_unstable_by_key(|slot| slot.id);
+        self.made = Some((*state, margin));
+    }
+
+    /// Forces a new collection at the next step.
+    pub(crate) fn forget(&mut self) {
+        self.made = None;
     }
 }
 

@@ -3,33 +3,49 @@
 use nalgebra::Vector3;
 
 use crate::body::{Body, State};
+use crate::contact::Contact;
 use crate::encounter::Loads;
-use crate::patch::Patch;
 use crate::query::bounds;
 use crate::shape::Piece;
 use crate::surface::Surface;
 
 /// Time [s] in which the body cannot touch `surface`; zero when it may touch at once.
 pub(crate) fn free_time(
-    patch: &mut Patch,
+    contact: &mut Contact,
     surface: &Surface,
     body: &Body,
     local: &State,
     loads: &Loads,
 ) -> f64 {
-    let force = loads.gravity.norm() + loads.force.norm() / body.inertia.mass;
-    let turning = local.spin.norm() * turning_reach(body);
-    let gaps = gaps(surface, body, local, patch.inflation());
-    let apart = gaps.map(|(gap, approach)| time_to_close(gap, approach + turning, force));
-    let apart = apart.into_iter().fold(0.0, f64::max);
+    let apart = box_time(surface, body, local, loads, contact.inflation());
+    let Contact::Springs(patch) = contact else { return f64::INFINITY };
     if apart > 0.0 {
         return apart;
     }
     let margin = 0.5 * surface.pitch();
     patch.cover(surface, &body.shape, local, margin);
     let speed = local.velocity.norm() + local.spin.norm() * turning_reach(body);
+    let force = acceleration(body, loads);
     let covered = time_to_close(patch.slack(&body.shape, local).max(0.0), speed, force);
     patch.time_to_touch(local).min(covered)
+}
+
+/// Time until the boxes of the body and the nodes can meet [s].
+pub(crate) fn box_time(
+    surface: &Surface,
+    body: &Body,
+    local: &State,
+    loads: &Loads,
+    inflation: f64,
+) -> f64 {
+    let force = acceleration(body, loads);
+    let turning = local.spin.norm() * turning_reach(body);
+    let time = |(gap, approach)| time_to_close(gap, approach + turning, force);
+    gaps(surface, body, local, inflation).map(time).into_iter().fold(0.0, f64::max)
+}
+
+fn acceleration(body: &Body, loads: &Loads) -> f64 {
+    loads.gravity.norm() + loads.force.norm() / body.inertia.mass
 }
 
 /// Largest gap between the box around the body and the box around the nodes [m]; negative when
@@ -53,7 +69,7 @@ fn gaps(surface: &Surface, body: &Body, local: &State, inflation: f64) -> [(f64,
 }
 
 /// Shortest time in which `gap` closes at `speed`, under `acceleration` at the worst.
-fn time_to_close(gap: f64, speed: f64, acceleration: f64) -> f64 {
+pub(crate) fn time_to_close(gap: f64, speed: f64, acceleration: f64) -> f64 {
     if gap <= 0.0 {
         return 0.0;
     }

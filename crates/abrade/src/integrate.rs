@@ -7,14 +7,14 @@
 use nalgebra::Vector3;
 
 use crate::body::{Body, State};
+use crate::contact::Contact;
 use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Until};
 use crate::error::PhysicsError;
-use crate::flight::free_time;
+use crate::flight::{free_time, separation};
 use crate::ledger::Ledger;
-use crate::node_law::Motion;
-use crate::patch::{Patch, Reaction};
 use crate::rotation::Dynamics;
 use crate::surface::Surface;
+use crate::trial::{Pull, Trial};
 
 /// eta at an accuracy of 3e-3; the error goes as eta^2.
 const ETA: f64 = 0.1;
@@ -23,12 +23,10 @@ const ETA_ACCURACY: f64 = 3e-3;
 const ETA_LIMIT: f64 = 0.7;
 /// A trial is rejected above this multiple of eta.
 const REJECT: f64 = 1.5;
-/// Largest change of an overlap in a step, in yield overlaps.
-const OVERLAP_CHANGE: f64 = 1.0;
-/// Share of a step below which the turning point is not worth a step of its own.
-const TURN: f64 = 0.05;
 /// Growth of the step from one to the next.
 const GROWTH: f64 = 2.0;
+/// Share of a step below which the turning point is not worth a step of its own.
+const TURN: f64 = 0.05;
 /// Overlap at the first step, in bounding radii, above which a body counts as started inside.
 const INSIDE: f64 = 1e-3;
 /// Share of the kinetic energy before contact below which a body counts as stopped.
@@ -38,31 +36,19 @@ const STOPPED: f64 = 1e-9;
 #[derive(Clone, Debug)]
 pub(crate) struct Integrator {
     settings: EncounterSettings,
-    dynamics: Dynamics,
+    pub(crate) dynamics: Dynamics,
     eta: f64,
-    patches: Vec<Patch>,
-    /// Smallest yield overlap [m].
-    yield_overlap: f64,
+    pub(crate) contacts: Vec<Contact>,
     /// Step that the last contact asked for [s]; zero when there is none.
     next_dt: f64,
-    /// Force [N] and torque [N m] of the contacts at the present instant.
-    force: Vector3<f64>,
-    torque: Vector3<f64>,
-    /// Sum of the nodes' normal loads along their normals [N].
-    push: Vector3<f64>,
-    touching: bool,
+    /// What the contacts do to the body at the present instant.
+    pub(crate) pull: Pull,
+    pub(crate) touching: bool,
     touched: bool,
     energy_before: f64,
+    /// Energy that projections with springs were short of [J].
+    pub(crate) short: f64,
     ledger: Ledger,
-}
-
-/// A trial step.
-struct Trial {
-    state: State,
-    spin_half: Vector3<f64>,
-    velocity_half: Vector3<f64>,
-    reactions: Vec<Reaction>,
-    total: Reaction,
 }
 
 impl Integrator {
@@ -74,26 +60,21 @@ impl Integrator {
         let dynamics = Dynamics::new(&body.inertia, body.rotation_locked).ok_or(
             PhysicsError::Unsupported { what: "the body's mass or inertia is not positive" },
         )?;
-        let mut patches = Vec::new();
-        let mut yield_overlap = f64::INFINITY;
-        for surface in surfaces {
-            let patch = Patch::new(&body.shape, &surface.laws);
-            yield_overlap = yield_overlap.min(patch.yield_overlap(surface));
-            patches.push(patch);
-        }
+        let contacts = surfaces
+            .into_iter()
+            .map(|surface| Contact::new(&body.shape, surface))
+            .collect::<Result<_, _>>()?;
         Ok(Self {
             settings,
             dynamics,
             eta: (ETA * (settings.accuracy / ETA_ACCURACY).sqrt()).min(ETA_LIMIT),
-            patches,
-            yield_overlap,
+            contacts,
             next_dt: 0.0,
-            force: Vector3::zeros(),
-            torque: Vector3::zeros(),
-            push: Vector3::zeros(),
+            pull: Pull::default(),
             touching: false,
             touched: false,
             energy_before: body.inertia.kinetic_energy(&body.state),
+            short: 0.0,
             ledger: Ledger::default(),
         })
     }
@@ -104,6 +85,10 @@ impl Integrator {
 
     pub(crate) fn ledger(&self) -> &Ledger {
         &self.ledger
+    }
+
+    pub(crate) fn keeps_ledger(&self) -> bool {
+        self.settings.ledger
     }
 
     pub(crate) fn advance(
@@ -118,22 +103,28 @@ impl Integrator {
         let mut done = Advance::default();
         while done.time < duration {
             let remaining = duration - done.time;
-            let step = if self.touching {
-                self.contact_step(&body.state).min(remaining)
-            } else {
-                self.free_step(body, surfaces, loads).min(remaining)
+            let wanted = match self.touching {
+                true => self.contact_step(body),
+                false => self.free_step(body, surfaces, loads),
             };
+            let limit = self.sweep_limit(body, surfaces, loads);
+            let step = wanted.min(limit.max(self.box_time(body, surfaces, loads))).min(remaining);
             let dt = self.step(body, surfaces, loads, step, &mut done)?;
             // The last step ends on the duration to the bit.
             done.time = if dt == remaining { duration } else { done.time + dt };
             observer.observe(&Instant {
                 time: done.time,
                 state: &body.state,
-                force: self.force,
+                force: self.pull.force,
                 surfaces,
                 ledger: self.settings.ledger.then_some(&self.ledger),
             });
-            if until == Until::FirstExit && self.has_left(body, surfaces) {
+            if self.touched && self.contact_is_over(body, surfaces) {
+                self.end_contact(surfaces);
+                done.exited = until == Until::FirstExit;
+            }
+            if done.exited || (until == Until::FirstExit && self.has_stopped(body)) {
+                self.end_contact(surfaces);
                 done.exited = true;
                 break;
             }
@@ -146,26 +137,50 @@ impl Integrator {
 
     /// Step of a body in contact. It ends where the body turns, because there the flow ends: a
     /// sampled peak would miss wear in proportion to dt^2.
-    fn contact_step(&self, state: &State) -> f64 {
-        let direction = self.push / self.push.norm().max(f64::MIN_POSITIVE);
-        let approach = -state.velocity.dot(&direction);
-        let braking = self.force.dot(&direction) * self.dynamics.inverse_mass;
+    fn contact_step(&self, body: &Body) -> f64 {
+        let push = self.pull.push;
+        let direction = push / push.norm().max(f64::MIN_POSITIVE);
+        let approach = -body.state.velocity.dot(&direction);
+        let braking = self.pull.force.dot(&direction) * self.dynamics.inverse_mass;
         let turn = approach / braking;
         if turn > TURN * self.next_dt && turn < self.next_dt { turn } else { self.next_dt }
     }
 
     /// Step of a body out of contact: to the next instant at which it may touch.
     fn free_step(&mut self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads) -> f64 {
-        let speed =
-            body.state.velocity.norm() + body.state.spin.norm() * body.shape.bounding_radius();
-        let floor = if speed > 0.0 { 0.1 * self.yield_overlap / speed } else { f64::INFINITY };
-        self.next_dt = 0.0;
+        let speed = top_speed(body);
+        let yield_overlap = self.contacts.iter().map(Contact::yield_overlap);
+        let scale = yield_overlap.fold(f64::INFINITY, f64::min);
+        let floor = if speed > 0.0 { 0.1 * scale / speed } else { f64::INFINITY };
         let mut time = f64::INFINITY;
-        for (patch, placed) in self.patches.iter_mut().zip(surfaces) {
+        for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
             let local = body.state.seen_from(&placed.pose);
-            time = time.min(free_time(patch, placed.surface, body, &local, loads));
+            time = time.min(free_time(contact, placed.surface, body, &local, loads));
         }
         time.max(floor)
+    }
+
+    /// Time until the boxes of the body and of every surface swept by it can meet [s].
+    fn box_time(&self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads) -> f64 {
+        let mut time = f64::INFINITY;
+        for (contact, placed) in self.contacts.iter().zip(surfaces) {
+            if let Contact::Columns(_) = contact {
+                let local = body.state.seen_from(&placed.pose);
+                time = time.min(crate::flight::box_time(placed.surface, body, &local, loads, 0.0));
+            }
+        }
+        time
+    }
+
+    /// Longest step of the swept rule: |v| dt <= 0.1 pitch, and 0.4 yield overlaps with springs.
+    fn sweep_limit(&self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads) -> f64 {
+        let speed = top_speed(body);
+        let acceleration = loads.gravity.norm() + loads.force.norm() * self.dynamics.inverse_mass;
+        let limit = |(contact, placed): (&Contact, &Placed<'_>)| {
+            let reach = contact.sweep_reach(placed.surface)?;
+            Some(crate::flight::time_to_close(reach, speed, acceleration))
+        };
+        self.contacts.iter().zip(surfaces).filter_map(limit).fold(f64::INFINITY, f64::min)
     }
 
     /// Takes one step of at most `dt`; returns its length.
@@ -180,85 +195,28 @@ impl Integrator {
         let mut dt = dt;
         loop {
             let trial = self.trial(body, surfaces, loads, dt);
-            done.node_evaluations += trial.total.evaluations;
-            if !trial.state.is_finite() || !trial.total.force.iter().all(|x| x.is_finite()) {
+            done.node_evaluations += trial.evaluations;
+            if !trial.is_finite() {
                 return Err(PhysicsError::NotFinite { time: done.contact_time });
             }
-            let wanted = self.wanted_step(&trial.total, dt);
-            if let Some(smaller) = wanted.reject {
+            let allowed = self.eta / trial.omega(&self.dynamics);
+            if let Some(smaller) = rejected(&trial, dt, allowed) {
                 if dt < f64::MIN_POSITIVE / f64::EPSILON {
                     return Err(PhysicsError::StepVanished { step: dt });
                 }
                 dt = smaller;
                 continue;
             }
-            self.accept(body, surfaces, loads, dt, trial, done)?;
-            self.next_dt = wanted.next;
+            if !self.touched && trial.touching > 0 {
+                self.begin_contact(body, surfaces)?;
+            }
+            self.next_dt = allowed.min(GROWTH * dt);
+            self.accept(body, surfaces, loads, dt, trial, done);
+            for placed in surfaces.iter() {
+                engulfed(placed, &body.state)?;
+            }
             return Ok(dt);
         }
-    }
-
-    /// The step that the trial's stiffness allows.
-    fn wanted_step(&self, total: &Reaction, dt: f64) -> Wanted {
-        if total.touching == 0 {
-            return Wanted { reject: None, next: GROWTH * dt };
-        }
-        let normal = total.normal_stiffness * self.dynamics.inverse_mass;
-        let spin = self.dynamics.agility() * total.reach * total.reach;
-        let tangential = total.tangential_stiffness * (self.dynamics.inverse_mass + spin);
-        let omega = normal.max(tangential).sqrt();
-        let allowed = self.eta / omega;
-        let change = total.overlap_change / OVERLAP_CHANGE;
-        let reject = if omega * dt > REJECT * self.eta {
-            Some(allowed.min(0.7 * dt))
-        } else if change > 1.0 {
-            Some(dt * (0.8 / change).max(0.1))
-        } else {
-            None
-        };
-        Wanted { reject, next: allowed.min(GROWTH * dt) }
-    }
-
-    fn trial(&mut self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads, dt: f64) -> Trial {
-        let half = 0.5 * dt;
-        let mut state = body.state;
-        let (force, torque) = self.with_loads(body, loads, &self.force, &self.torque);
-        state.velocity += force * (self.dynamics.inverse_mass * half);
-        state.spin += self.dynamics.turn(&state.rotation, &(torque * half));
-        let velocity_half = state.velocity;
-        let spin_half = self.dynamics.drift(&mut state, dt);
-        let reach = (velocity_half.norm() + spin_half.norm() * body.shape.bounding_radius()) * dt;
-        let mut trial = Trial {
-            state,
-            spin_half,
-            velocity_half,
-            reactions: Vec::new(),
-            total: Reaction::default(),
-        };
-        for (patch, placed) in self.patches.iter_mut().zip(surfaces) {
-            let end = state.seen_from(&placed.pose);
-            let margin = (8.0 * reach).max(0.05 * placed.surface.pitch());
-            patch.cover(placed.surface, &body.shape, &end, margin);
-            let motion = Motion {
-                velocity: placed.pose.inverse_transform_vector(&velocity_half),
-                spin: placed.pose.inverse_transform_vector(&spin_half),
-                dt,
-            };
-            let reaction = patch.trial(placed.surface, &end, &motion, self.settings.ledger);
-            trial.total.add(&reaction, &placed.pose);
-            trial.reactions.push(reaction);
-        }
-        trial
-    }
-
-    fn with_loads(
-        &self,
-        body: &Body,
-        loads: &Loads,
-        force: &Vector3<f64>,
-        torque: &Vector3<f64>,
-    ) -> (Vector3<f64>, Vector3<f64>) {
-        (force + loads.force + loads.gravity * body.inertia.mass, torque + loads.torque)
     }
 
     fn accept(
@@ -269,69 +227,39 @@ impl Integrator {
         dt: f64,
         trial: Trial,
         done: &mut Advance,
-    ) -> Result<(), PhysicsError> {
-        if !self.touched && trial.total.touching > 0 {
-            self.begin_contact(body, surfaces)?;
-        }
+    ) {
         let before = body.state;
-        let half = 0.5 * dt;
-        let mut state = trial.state;
-        let (force, torque) = self.with_loads(body, loads, &trial.total.force, &trial.total.torque);
-        state.velocity += force * (self.dynamics.inverse_mass * half);
-        state.spin += self.dynamics.turn(&state.rotation, &(torque * half));
-        let undamped = state;
+        let end = self.settle(body, surfaces, loads, dt, &trial);
+        let mut state = end.state;
         state.velocity /= 1.0 + dt * loads.linear_damping;
         state.spin /= 1.0 + dt * loads.angular_damping;
-        for ((patch, placed), reaction) in
-            self.patches.iter_mut().zip(surfaces.iter_mut()).zip(&trial.reactions)
-        {
-            patch.commit(placed.surface, reaction);
-            engulfed(placed, &state)?;
+        if self.settings.ledger {
+            let energy = |state: &State| body.inertia.kinetic_energy(state);
+            let weight = loads.force + loads.gravity * body.inertia.mass;
+            let ledger = &mut self.ledger;
+            ledger.kinetic_change += energy(&state) - energy(&before);
+            ledger.damping += energy(&end.state) - energy(&state);
+            ledger.external_work +=
+                weight.dot(&trial.shift) + self.dynamics.work(&loads.torque, &trial.turn);
+            ledger.elastic = end.ledger.elastic;
+            ledger.friction += end.ledger.friction;
+            ledger.wear += end.ledger.wear;
+            ledger.history += end.ledger.history;
         }
-        done.impulse += (self.force + trial.total.force) * half;
+        done.impulse += end.impulse;
         done.steps += 1;
-        if trial.total.touching > 0 || self.touching {
+        if trial.touching > 0 || self.touching {
             done.contact_time += dt;
         }
-        if self.settings.ledger {
-            let shift = (trial.velocity_half * dt, trial.spin_half * dt);
-            self.keep_books(body, loads, &before, &undamped, &state, shift, &trial.total.ledger);
-        }
-        self.force = trial.total.force;
-        self.torque = trial.total.torque;
-        self.push = trial.total.push;
-        self.touching = trial.total.touching > 0;
+        self.pull = end.pull;
+        self.touching = trial.touching > 0;
         body.state = state;
-        Ok(())
-    }
-
-    #[allow(clippy::too_many_arguments, reason = "the states of one step, each of another type")]
-    fn keep_books(
-        &mut self,
-        body: &Body,
-        loads: &Loads,
-        before: &State,
-        undamped: &State,
-        after: &State,
-        (shift, turn): (Vector3<f64>, Vector3<f64>),
-        step: &Ledger,
-    ) {
-        let energy = |state: &State| body.inertia.kinetic_energy(state);
-        let weight = loads.force + loads.gravity * body.inertia.mass;
-        let ledger = &mut self.ledger;
-        ledger.kinetic_change += energy(after) - energy(before);
-        ledger.damping += energy(undamped) - energy(after);
-        ledger.external_work += weight.dot(&shift) + loads.torque.dot(&turn);
-        ledger.elastic = step.elastic;
-        ledger.friction += step.friction;
-        ledger.wear += step.wear;
-        ledger.history += step.history;
     }
 
     /// The first touch: the body must not have started inside a surface.
     fn begin_contact(&mut self, body: &Body, surfaces: &[Placed<'_>]) -> Result<(), PhysicsError> {
-        for (patch, placed) in self.patches.iter().zip(surfaces) {
-            let depth = patch.deepest(&body.state.seen_from(&placed.pose));
+        for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
+            let depth = contact.deepest(&body.shape, &body.state.seen_from(&placed.pose));
             if depth > INSIDE * body.shape.bounding_radius() {
                 return Err(PhysicsError::StartsInside { depth });
             }
@@ -341,25 +269,50 @@ impl Integrator {
         Ok(())
     }
 
-    /// `Until::FirstExit`: out of contact and above, or stopped.
-    fn has_left(&self, body: &Body, surfaces: &[Placed<'_>]) -> bool {
-        if !self.touched {
-            return false;
-        }
-        let stopped = body.inertia.kinetic_energy(&body.state) < STOPPED * self.energy_before;
-        let above = || {
-            self.patches.iter().zip(surfaces).all(|(patch, placed)| {
+    /// True for a body out of contact and wholly above every undeformed surface.
+    fn contact_is_over(&self, body: &Body, surfaces: &[Placed<'_>]) -> bool {
+        let mut pairs = self.contacts.iter().zip(surfaces);
+        !self.touching
+            && pairs.all(|(contact, placed)| {
                 let local = body.state.seen_from(&placed.pose);
-                crate::flight::separation(placed.surface, body, &local, patch.inflation()) >= 0.0
+                separation(placed.surface, body, &local, contact.inflation()) >= 0.0
             })
-        };
-        !self.touching && above()
+    }
+
+    /// True for a body that surfaces without springs have brought to rest.
+    fn has_stopped(&self, body: &Body) -> bool {
+        let energy = body.inertia.kinetic_energy(&body.state);
+        self.touched
+            && self.contacts.iter().all(Contact::is_rigid)
+            && energy < STOPPED * self.energy_before
+    }
+
+    fn end_contact(&mut self, surfaces: &mut [Placed<'_>]) {
+        for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
+            contact.end(placed.surface);
+        }
+        self.touching = false;
+        self.touched = false;
     }
 }
 
-struct Wanted {
-    reject: Option<f64>,
-    next: f64,
+/// A smaller step where the trial asks for one.
+fn rejected(trial: &Trial, dt: f64, allowed: f64) -> Option<f64> {
+    if trial.touching == 0 {
+        None
+    } else if dt > REJECT * allowed {
+        Some(allowed.min(0.7 * dt))
+    } else if trial.overlap_change > 1.0 {
+        Some(dt * (0.8 / trial.overlap_change).max(0.1))
+    } else {
+        None
+    }
+}
+
+/// Bound of the speed of any point of the body [m/s].
+fn top_speed(body: &Body) -> f64 {
+    let turning: Vector3<f64> = body.state.spin;
+    body.state.velocity.norm() + turning.norm() * body.shape.bounding_radius()
 }
 
 /// An error when the centre of mass is below the undeformed surface.

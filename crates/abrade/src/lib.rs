@@ -7,6 +7,8 @@
 
 mod body;
 mod candidates;
+mod columns;
+mod contact;
 mod elastic;
 mod encounter;
 mod error;
@@ -21,12 +23,15 @@ mod material;
 mod node_law;
 mod nodes;
 mod patch;
+mod projection;
 #[cfg(feature = "serde")]
 pub mod quantity;
 mod query;
 mod rotation;
 mod shape;
 mod surface;
+mod sweep;
+mod trial;
 mod union_inertia;
 
 pub use body::{Body, Inertia, State};

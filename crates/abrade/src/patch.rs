@@ -21,6 +21,7 @@ use crate::surface::{Surface, SurfaceLaws};
 pub(crate) struct Patch {
     contactors: Vec<Contactor>,
     inflation: f64,
+    yield_overlap: f64,
     candidates: Candidates,
     /// Springs at the start of the step and at its trial end, one per candidate.
     old: Vec<Spring>,
@@ -70,13 +71,15 @@ impl Reaction {
 }
 
 impl Patch {
-    pub(crate) fn new(shape: &Shape, laws: &SurfaceLaws) -> Self {
-        let contactors = shape
+    pub(crate) fn new(shape: &Shape, surface: &Surface) -> Self {
+        let laws = &surface.laws;
+        let contactors: Vec<_> = shape
             .pieces()
             .iter()
             .map(|piece| Contactor { piece: piece.clone(), coefficient: coefficient(laws, piece) })
             .collect();
         Self {
+            yield_overlap: yield_overlap(&contactors, surface),
             contactors,
             inflation: inflation(&laws.elastic),
             candidates: Candidates::default(),
@@ -92,18 +95,8 @@ impl Patch {
     }
 
     /// Smallest overlap at which a node yields [m].
-    pub(crate) fn yield_overlap(&self, surface: &Surface) -> f64 {
-        let laws = &surface.laws;
-        let (hardness, area) = (laws.material.hardness, surface.nodes.rest_area[0]);
-        let of = |c: &Contactor| match laws.elastic {
-            ElasticLaw::HertzNodes { .. } => {
-                HertzNodes::new(laws.material.poisson).yield_overlap(c.coefficient, hardness, area)
-            }
-            _ => {
-                Foundation::new(laws.material.poisson).yield_overlap(c.coefficient, hardness, area)
-            }
-        };
-        self.contactors.iter().map(of).fold(f64::INFINITY, f64::min)
+    pub(crate) fn yield_overlap(&self) -> f64 {
+        self.yield_overlap
     }
 
     /// Makes sure that the candidates cover the body at `state`; `margin` [m] is the reach of a
@@ -351,4 +344,18 @@ fn inflation(elastic: &ElasticLaw) -> f64 {
         ElasticLaw::HertzNodes { node_radius, .. } => *node_radius,
         _ => 0.0,
     }
+}
+
+fn yield_overlap(contactors: &[Contactor], surface: &Surface) -> f64 {
+    let SurfaceLaws { material, elastic, .. } = &surface.laws;
+    let area = surface.nodes.rest_area[0];
+    let of = |c: &Contactor| match elastic {
+        ElasticLaw::HertzNodes { .. } => {
+            HertzNodes::new(material.poisson).yield_overlap(c.coefficient, material.hardness, area)
+        }
+        _ => {
+            Foundation::new(material.poisson).yield_overlap(c.coefficient, material.hardness, area)
+        }
+    };
+    contactors.iter().map(of).fold(f64::INFINITY, f64::min)
 }

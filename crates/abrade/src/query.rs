@@ -219,6 +219,41 @@ fn piece_clearance(piece: &Piece, local: &Vector3<f64>) -> f64 {
     }
 }
 
+/// True when the line from `x` down along -n meets the shape grown by `margin` [m].
+pub(crate) fn column_meets(
+    shape: &Shape,
+    state: &State,
+    x: &Point3<f64>,
+    n: &Vector3<f64>,
+    margin: f64,
+) -> bool {
+    let x = state.rotation.inverse_transform_vector(&(x - state.position));
+    let n = state.rotation.inverse_transform_vector(n);
+    shape.pieces().iter().any(|piece| match piece {
+        Piece::Ball(ball) => {
+            let to_centre = ball.centre.coords - x;
+            let (along, radius) = (to_centre.dot(&n), ball.radius + margin);
+            let square = radius * radius - (to_centre - n * along).norm_squared();
+            square > 0.0 && along - square.sqrt() < margin
+        }
+        Piece::Hull(hull) => {
+            let (mut low, mut high) = (f64::NEG_INFINITY, margin);
+            for plane in hull.planes() {
+                let slope = plane.normal.dot(&n);
+                let room = plane.offset + margin - plane.normal.dot(&x);
+                if slope < 0.0 {
+                    low = low.max(room / slope);
+                } else if slope > 0.0 {
+                    high = high.min(room / slope);
+                } else if room < 0.0 {
+                    return false;
+                }
+            }
+            low < high
+        }
+    })
+}
+
 /// Box around the shape at `state`, grown by `margin` [m].
 pub(crate) fn bounds(shape: &Shape, state: &State, margin: f64) -> [Point3<f64>; 2] {
     let mut low = Point3::from(Vector3::repeat(f64::INFINITY));

@@ -57,6 +57,11 @@ impl Dynamics {
         rotation * (self.inverse * rotation.inverse_transform_vector(torque))
     }
 
+    /// Work per unit time of `torque` [W]: none on a locked body.
+    pub(crate) fn work(&self, torque: &Vector3<f64>, spin: &Vector3<f64>) -> f64 {
+        if self.locked { 0.0 } else { torque.dot(spin) }
+    }
+
     /// Largest angular answer to a torque [1/(kg m2)].
     pub(crate) fn agility(&self) -> f64 {
         self.inverse.diagonal().max()

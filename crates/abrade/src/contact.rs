@@ -1,0 +1,94 @@
+//! One body against one surface: by springs (the return mapping) or by columns (the swept rule).
+
+use crate::body::State;
+use crate::columns::Columns;
+use crate::error::PhysicsError;
+use crate::laws::{ElasticLaw, FlowLaw, Lateral};
+use crate::patch::Patch;
+use crate::shape::{Piece, Shape};
+use crate::surface::Surface;
+
+/// Displacement of a body per step of the swept rule, in pitches and in yield overlaps.
+const SWEEP_PITCH: f64 = 0.1;
+const SWEEP_YIELD: f64 = 0.4;
+
+/// How a body meets a surface.
+#[derive(Clone, Debug)]
+pub(crate) enum Contact {
+    Springs(Patch),
+    Columns(Columns),
+}
+
+impl Contact {
+    /// Bodies with faces and laws without springs go by the swept rule; `HertzNodes` puts a ball
+    /// on every node and so knows no faces.
+    pub(crate) fn new(shape: &Shape, surface: &Surface) -> Result<Self, PhysicsError> {
+        let laws = &surface.laws;
+        let rigid = laws.elastic == ElasticLaw::Rigid;
+        if laws.flow == (FlowLaw::CapozzaHanley { lateral: Lateral::Eq5 }) {
+            let lone_ball = matches!(shape.pieces(), [Piece::Ball(_)]);
+            if !lone_ball || rigid {
+                return Err(PhysicsError::Unsupported {
+                    what: "CapozzaHanley(lateral: Eq5) is the paper's formula for one ball on \
+                           springs; take lateral: Projected",
+                });
+            }
+        }
+        let hertz = matches!(laws.elastic, ElasticLaw::HertzNodes { .. });
+        Ok(match rigid || (shape.has_faces() && !hertz) {
+            true => Self::Columns(Columns::new(shape, laws)),
+            false => Self::Springs(Patch::new(shape, surface)),
+        })
+    }
+
+    /// r_s for `HertzNodes`, zero otherwise [m].
+    pub(crate) fn inflation(&self) -> f64 {
+        match self {
+            Self::Springs(patch) => patch.inflation(),
+            Self::Columns(_) => 0.0,
+        }
+    }
+
+    /// Smallest overlap at which a node yields [m]; infinite without springs.
+    pub(crate) fn yield_overlap(&self) -> f64 {
+        match self {
+            Self::Springs(patch) => patch.yield_overlap(),
+            Self::Columns(_) if self.is_rigid() => f64::INFINITY,
+            Self::Columns(columns) => columns.yield_overlap(),
+        }
+    }
+
+    /// True without springs.
+    pub(crate) fn is_rigid(&self) -> bool {
+        matches!(self, Self::Columns(columns) if columns.yield_overlap() == 0.0)
+    }
+
+    /// Largest displacement of a step [m], if the swept rule bounds it.
+    pub(crate) fn sweep_reach(&self, surface: &Surface) -> Option<f64> {
+        let Self::Columns(columns) = self else { return None };
+        let pitch = SWEEP_PITCH * surface.pitch();
+        Some(if self.is_rigid() { pitch } else { pitch.min(SWEEP_YIELD * columns.yield_overlap()) })
+    }
+
+    pub(crate) fn cover(&mut self, surface: &Surface, shape: &Shape, state: &State, margin: f64) {
+        match self {
+            Self::Springs(patch) => patch.cover(surface, shape, state, margin),
+            Self::Columns(columns) => columns.cover(surface, shape, state, margin),
+        }
+    }
+
+    /// Largest overlap of a node with the body at `state` [m].
+    pub(crate) fn deepest(&mut self, shape: &Shape, state: &State) -> f64 {
+        match self {
+            Self::Springs(patch) => patch.deepest(state),
+            Self::Columns(columns) => columns.deepest(shape, state),
+        }
+    }
+
+    /// End of a contact.
+    pub(crate) fn end(&mut self, surface: &mut Surface) {
+        if let Self::Columns(columns) = self {
+            columns.end_contact(surface);
+        }
+    }
+}

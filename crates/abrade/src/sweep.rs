@@ -1,0 +1,199 @@
+//! A body between the two poses of a step, as the swept rule sees it: where a column's line
+//! crosses the body, and through which face a point entered it.
+
+use nalgebra::{Point3, Vector3};
+
+use crate::body::State;
+use crate::shape::{Piece, Shape};
+
+/// Displacement of a face, in displacements of the step, below which it did not move.
+const UNMOVED: f64 = 1e-9;
+
+/// The face planes and balls of a body at the start and the end of a step.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Swept {
+    planes: Vec<MovedPlane>,
+    balls: Vec<MovedBall>,
+    /// Per hull: the end of its planes in `planes`.
+    hulls: Vec<usize>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct MovedPlane {
+    from: (Vector3<f64>, f64),
+    to: (Vector3<f64>, f64),
+}
+
+#[derive(Clone, Copy, Debug)]
+struct MovedBall {
+    from: Point3<f64>,
+    to: Point3<f64>,
+    radius: f64,
+}
+
+/// Part of a column's line inside the body at the end of a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Span {
+    /// Coordinates along the node's normal [m].
+    pub low: f64,
+    pub high: f64,
+    /// Outward normal of the face at the deep end.
+    pub deep_normal: Vector3<f64>,
+}
+
+/// How a point was entered.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Entry {
+    /// Outward normal of the face it entered through, mean of both poses.
+    pub normal: Vector3<f64>,
+    /// Displacement of that face along its normal [m], > 0.
+    pub displacement: f64,
+}
+
+impl Swept {
+    /// Places `shape` at both ends of a step; reuses the buffers.
+    pub(crate) fn place(&mut self, shape: &Shape, from: &State, to: &State) {
+        self.planes.clear();
+        self.balls.clear();
+        self.hulls.clear();
+        for piece in shape.pieces() {
+            match piece {
+                Piece::Ball(ball) => self.balls.push(MovedBall {
+                    from: from.position + from.rotation * ball.centre.coords,
+                    to: to.position + to.rotation * ball.centre.coords,
+                    radius: ball.radius,
+                }),
+                Piece::Hull(hull) => {
+                    let at = |state: &State, normal: &Vector3<f64>, offset: f64| {
+                        let normal = state.rotation * normal;
+                        (normal, offset + normal.dot(&state.position.coords))
+                    };
+                    self.planes.extend(hull.planes().iter().map(|p| MovedPlane {
+                        from: at(from, &p.normal, p.offset),
+                        to: at(to, &p.normal, p.offset),
+                    }));
+                    self.hulls.push(self.planes.len());
+                }
+            }
+        }
+    }
+
+    /// Where the line x + z n crosses the body at the end of the step. Pieces of a clump over
+    /// one column count as one span.
+    #[inline]
+    pub(crate) fn span(&self, x: &Point3<f64>, n: &Vector3<f64>) -> Option<Span> {
+        let mut whole: Option<Span> = None;
+        let mut add = |span: Option<Span>| {
+            let Some(span) = span else { return };
+            let joined = whole.get_or_insert(span);
+            if span.low < joined.low {
+                (joined.low, joined.deep_normal) = (span.low, span.deep_normal);
+            }
+            joined.high = joined.high.max(span.high);
+        };
+        let mut start = 0;
+        for &end in &self.hulls {
+            add(clip(&self.planes[start..end], x, n));
+            start = end;
+        }
+        self.balls.iter().for_each(|ball| add(ball.chord(x, n)));
+        whole
+    }
+
+    /// The face through which `p` came to lie inside the body during the step, if one did.
+    #[inline]
+    pub(crate) fn entry(&self, p: &Point3<f64>, step: f64) -> Option<Entry> {
+        let mut first: Option<(f64, Entry)> = None;
+        let mut add = |found: Option<(f64, Entry)>| {
+            if let Some((time, entry)) = found
+                && first.as_ref().is_none_or(|(earliest, _)| time < *earliest)
+            {
+                first = Some((time, entry));
+            }
+        };
+        let mut start = 0;
+        for &end in &self.hulls {
+            add(hull_entry(&self.planes[start..end], p, step));
+            start = end;
+        }
+        self.balls.iter().for_each(|ball| add(ball.entry(p, step)));
+        first.map(|(_, entry)| entry)
+    }
+}
+
+/// Clips the line against the planes at the end of the step.
+#[inline]
+fn clip(planes: &[MovedPlane], x: &Point3<f64>, n: &Vector3<f64>) -> Option<Span> {
+    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    let mut deep_normal = Vector3::zeros();
+    for MovedPlane { to: (normal, offset), .. } in planes {
+        let slope = normal.dot(n);
+        let room = offset - normal.dot(&x.coords);
+        if slope < 0.0 {
+            let bound = room / slope;
+            if bound > low {
+                low = bound;
+                deep_normal = *normal;
+            }
+        } else if slope > 0.0 {
+            high = high.min(room / slope);
+        } else if room < 0.0 {
+            return None;
+        }
+        if low >= high {
+            return None;
+        }
+    }
+    Some(Span { low, high, deep_normal })
+}
+
+/// The plane that was crossed last on the way in, and when, as a share of the step.
+#[inline]
+fn hull_entry(planes: &[MovedPlane], p: &Point3<f64>, step: f64) -> Option<(f64, Entry)> {
+    let mut last: Option<(f64, &MovedPlane, f64)> = None;
+    for plane in planes {
+        let after = plane.to.0.dot(&p.coords) - plane.to.1;
+        let before = plane.from.0.dot(&p.coords) - plane.from.1;
+        if after > UNMOVED * step {
+            // Another piece of the clump took the point.
+            return None;
+        }
+        let displacement = before - after;
+        if before > 0.0 && displacement > UNMOVED * step {
+            let time = before / displacement;
+            if last.is_none_or(|(latest, ..)| time > latest) {
+                last = Some((time, plane, displacement));
+            }
+        }
+    }
+    last.map(|(time, plane, displacement)| {
+        let normal = (plane.from.0 + plane.to.0).normalize();
+        (time, Entry { normal, displacement })
+    })
+}
+
+impl MovedBall {
+    #[inline]
+    fn chord(&self, x: &Point3<f64>, n: &Vector3<f64>) -> Option<Span> {
+        let to_centre = self.to - x;
+        let along = to_centre.dot(n);
+        let square = self.radius * self.radius - (to_centre - n * along).norm_squared();
+        (square > 0.0).then(|| {
+            let half = square.sqrt();
+            let low = along - half;
+            Span { low, high: along + half, deep_normal: (n * low - to_centre) / self.radius }
+        })
+    }
+
+    #[inline]
+    fn entry(&self, p: &Point3<f64>, step: f64) -> Option<(f64, Entry)> {
+        let (before, after) = (p - self.from, p - self.to);
+        let (d0, d1) = (before.norm() - self.radius, after.norm() - self.radius);
+        let displacement = d0 - d1;
+        let entered = d1 <= UNMOVED * step && d0 > 0.0 && displacement > UNMOVED * step;
+        entered.then(|| {
+            let normal = (before + after).normalize();
+            (d0 / displacement, Entry { normal, displacement })
+        })
+    }
+}

@@ -1,0 +1,220 @@
+//! One trial step and its settlement: kick, drift, ask every contact, kick, project.
+
+use nalgebra::Vector3;
+
+use crate::body::{Body, State};
+use crate::columns::Toll;
+use crate::contact::Contact;
+use crate::encounter::{Loads, Placed};
+use crate::integrate::Integrator;
+use crate::ledger::Ledger;
+use crate::node_law::Motion;
+use crate::patch::Reaction;
+use crate::projection::project;
+use crate::rotation::Dynamics;
+
+/// Reach of a candidate list in displacements of the step, and its least value in pitches.
+const LIST_STEPS: f64 = 8.0;
+const LIST_PITCH: f64 = 0.05;
+
+/// What contacts do to a body at an instant.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Pull {
+    /// Force [N] and torque [N m] of all contacts.
+    pub force: Vector3<f64>,
+    pub torque: Vector3<f64>,
+    /// The part of them that springs exert.
+    spring_force: Vector3<f64>,
+    spring_torque: Vector3<f64>,
+    /// Sum of the nodes' normal loads along their normals [N].
+    pub push: Vector3<f64>,
+}
+
+/// A step that may be rejected.
+pub(crate) struct Trial {
+    state: State,
+    /// Displacement [m] and turn [rad] of the step.
+    pub shift: Vector3<f64>,
+    pub turn: Vector3<f64>,
+    answers: Vec<Answer>,
+    springs: Reaction,
+    toll: Toll,
+    pub touching: usize,
+    pub evaluations: u64,
+    pub overlap_change: f64,
+}
+
+enum Answer {
+    Springs(Reaction),
+    Columns(Toll),
+}
+
+/// The accepted end of a step.
+pub(crate) struct Settled {
+    pub state: State,
+    pub pull: Pull,
+    pub impulse: Vector3<f64>,
+    /// Stored energy, and increments of the dissipated ones.
+    pub ledger: Ledger,
+}
+
+impl Trial {
+    pub(crate) fn is_finite(&self) -> bool {
+        let forces = [self.springs.force, self.springs.torque, self.toll.impulse, self.toll.torque];
+        self.state.is_finite() && forces.iter().all(|v| v.iter().all(|x| x.is_finite()))
+    }
+
+    /// Highest angular frequency [1/s] of the body on the touching springs.
+    pub(crate) fn omega(&self, dynamics: &Dynamics) -> f64 {
+        let springs = &self.springs;
+        let normal = (springs.normal_stiffness + self.toll.stiffness) * dynamics.inverse_mass;
+        let turning = dynamics.agility() * springs.reach * springs.reach;
+        let tangential = springs.tangential_stiffness * (dynamics.inverse_mass + turning);
+        normal.max(tangential).sqrt()
+    }
+}
+
+impl Integrator {
+    pub(crate) fn trial(
+        &mut self,
+        body: &Body,
+        surfaces: &[Placed<'_>],
+        loads: &Loads,
+        dt: f64,
+    ) -> Trial {
+        let half = 0.5 * dt;
+        let mut state = body.state;
+        self.kick(body, loads, &self.pull.spring_force, &self.pull.spring_torque, half, &mut state);
+        let kicked = state;
+        let swept = self.swept_pull();
+        state.velocity += swept.0 * (half * self.dynamics.inverse_mass);
+        state.spin += self.dynamics.turn(&state.rotation, &(swept.1 * half));
+        let (velocity, predicted) = (state.velocity, state.spin);
+        let spin = self.dynamics.drift(&mut state, dt);
+        state.velocity = kicked.velocity;
+        state.spin += kicked.spin - predicted;
+        let mut trial = Trial {
+            state,
+            shift: velocity * dt,
+            turn: spin * dt,
+            answers: Vec::with_capacity(surfaces.len()),
+            springs: Reaction::default(),
+            toll: Toll::default(),
+            touching: 0,
+            evaluations: 0,
+            overlap_change: 0.0,
+        };
+        let reach = (velocity.norm() + spin.norm() * body.shape.bounding_radius()) * dt;
+        let ledger = self.keeps_ledger();
+        for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
+            let (start, end) = (body.state.seen_from(&placed.pose), state.seen_from(&placed.pose));
+            let margin = (LIST_STEPS * reach).max(LIST_PITCH * placed.surface.pitch());
+            contact.cover(placed.surface, &body.shape, &end, margin);
+            let motion = Motion {
+                velocity: placed.pose.inverse_transform_vector(&velocity),
+                spin: placed.pose.inverse_transform_vector(&spin),
+                dt,
+            };
+            trial.answers.push(match contact {
+                Contact::Springs(patch) => {
+                    let reaction = patch.trial(placed.surface, &end, &motion, ledger);
+                    trial.springs.add(&reaction, &placed.pose);
+                    Answer::Springs(reaction)
+                }
+                Contact::Columns(columns) => {
+                    let toll = columns.trial(&body.shape, &start, &end, &motion);
+                    trial.toll.add(&toll, &placed.pose);
+                    Answer::Columns(toll)
+                }
+            });
+        }
+        trial.touching = trial.springs.touching + trial.toll.touching;
+        trial.evaluations = (trial.springs.touching + trial.toll.touching) as u64;
+        trial.overlap_change = trial.springs.overlap_change;
+        trial
+    }
+
+    /// Mean force and torque of the columns over the last step: with springs the predictor needs
+    /// them; without, the balance is exact because it does not use them.
+    fn swept_pull(&self) -> (Vector3<f64>, Vector3<f64>) {
+        if !self.has_sprung_columns() {
+            return (Vector3::zeros(), Vector3::zeros());
+        }
+        let pull = &self.pull;
+        (pull.force - pull.spring_force, pull.torque - pull.spring_torque)
+    }
+
+    fn has_sprung_columns(&self) -> bool {
+        self.contacts.iter().any(|c| matches!(c, Contact::Columns(_)) && !c.is_rigid())
+    }
+
+    fn kick(
+        &self,
+        body: &Body,
+        loads: &Loads,
+        force: &Vector3<f64>,
+        torque: &Vector3<f64>,
+        time: f64,
+        state: &mut State,
+    ) {
+        let force = force + loads.force + loads.gravity * body.inertia.mass;
+        let torque = torque + loads.torque;
+        state.velocity += force * (self.dynamics.inverse_mass * time);
+        state.spin += self.dynamics.turn(&state.rotation, &(torque * time));
+    }
+
+    /// Commits a trial: second kick, projection, nodes.
+    pub(crate) fn settle(
+        &mut self,
+        body: &Body,
+        surfaces: &mut [Placed<'_>],
+        loads: &Loads,
+        dt: f64,
+        trial: &Trial,
+    ) -> Settled {
+        let mut state = trial.state;
+        let springs = &trial.springs;
+        self.kick(body, loads, &springs.force, &springs.torque, 0.5 * dt, &mut state);
+        let toll = &trial.toll;
+        let sprung = self.has_sprung_columns();
+        let projection = project(toll, &state, &self.dynamics, sprung, self.short);
+        self.short = projection.short;
+        let (impulse, torque) = (toll.impulse * projection.scale, toll.torque * projection.scale);
+        state.velocity += impulse * self.dynamics.inverse_mass;
+        state.spin += self.dynamics.turn(&state.rotation, &torque);
+        let mut elastic = springs.ledger.elastic;
+        let mut push = springs.push;
+        let pairs = self.contacts.iter_mut().zip(surfaces.iter_mut());
+        for ((contact, placed), answer) in pairs.zip(&trial.answers) {
+            match (contact, answer) {
+                (Contact::Springs(patch), Answer::Springs(reaction)) => {
+                    patch.commit(placed.surface, reaction);
+                }
+                (Contact::Columns(columns), Answer::Columns(toll)) => {
+                    columns.commit(placed.surface, projection.share, toll, dt);
+                    push += placed.pose * toll.impulse / dt;
+                    if sprung {
+                        elastic += columns.elastic();
+                    }
+                }
+                _ => {}
+            }
+        }
+        let pull = Pull {
+            force: springs.force + impulse / dt,
+            torque: springs.torque + torque / dt,
+            spring_force: springs.force,
+            spring_torque: springs.torque,
+            push,
+        };
+        let ledger = Ledger {
+            elastic,
+            friction: springs.ledger.friction + toll.friction * projection.share,
+            wear: springs.ledger.wear + toll.wear * projection.share,
+            history: springs.ledger.history + toll.lost,
+            ..Ledger::default()
+        };
+        let mean = (self.pull.spring_force + springs.force) * (0.5 * dt);
+        Settled { state, pull, impulse: mean + impulse, ledger }
+    }
+}
