@@ -1,10 +1,26 @@
-//! Scene files: read, checked, built.
+//! Scene files (RON): read, checked with every fault at its place, built into the surfaces and
+//! bodies of `abrade`. Also clump files. Runs nothing and prints nothing.
+//!
+//! `load` -> [`Checked`] -> [`Checked::build`] -> [`Built`].
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+mod build;
+mod check;
 pub mod clump;
-pub mod scene;
+mod load;
 mod patched;
+mod place;
 mod problem;
+mod refusal;
+pub mod scene;
 mod set;
+mod solid;
 mod spans;
+
+pub use build::{BuildError, Built, BuiltSurface};
+pub use check::Checked;
+pub use load::{load, load_text};
+pub use problem::{Mark, Problem, SceneError, Source};
+pub use scene::Scene;
+pub use solid::Solid;

@@ -9,7 +9,7 @@ mod path;
 
 use std::ops::Range;
 
-pub(crate) use parser::{Trouble, parse};
+pub(crate) use parser::parse;
 pub(crate) use path::{ScenePath, Segment};
 
 /// A value and its place in the text.

@@ -9,12 +9,11 @@ use nalgebra::{Matrix3, Point3};
 use super::lines::{Line, lines};
 use super::{ClumpError, ClumpFile, Format, Given, LineTrouble};
 
-/// Atoms that a file may announce: a molecule lists each on lines of its own.
-const ATOM_LIMIT: f64 = 1e7;
-
 pub(super) fn parse(path: &Path, text: &str) -> Result<ClumpFile, ClumpError> {
     let missing = |what| ClumpError::Missing { path: path.to_owned(), what };
-    let mut header = Header::default();
+    // A molecule lists each atom on lines of its own.
+    let limit = text.lines().count();
+    let mut header = Header { limit, atoms: 0, given: Given::default() };
     let mut centres: Vec<Option<Point3<f64>>> = Vec::new();
     let mut radii: Vec<Option<f64>> = Vec::new();
     let mut section = "";
@@ -56,8 +55,8 @@ fn entry<'a, T>(table: &'a mut [T], line: &Line, atom: f64) -> Result<&'a mut T,
     table.get_mut(index).ok_or_else(|| line.error(LineTrouble::Atom { atom, count }))
 }
 
-#[derive(Default)]
 struct Header {
+    limit: usize,
     atoms: usize,
     given: Given,
 }
@@ -74,7 +73,7 @@ impl Header {
             values.iter().map(|word| line.number(word)).collect::<Result<_, _>>()?;
         let found = values.len();
         match (*keyword, &values[..]) {
-            ("atoms", &[count]) if (1.0..=ATOM_LIMIT).contains(&count) => {
+            ("atoms", &[count]) if (1.0..=self.limit as f64).contains(&count) => {
                 self.atoms = count as usize;
             }
             ("mass", &[mass]) => self.given.mass = Some(mass),
@@ -84,8 +83,7 @@ impl Header {
                 self.given.tensor_per_mass = self.given.mass.map(|mass| tensor / mass);
             }
             ("atoms", &[atom]) => {
-                let count = ATOM_LIMIT as usize;
-                return Err(line.error(LineTrouble::Atom { atom, count }));
+                return Err(line.error(LineTrouble::Atom { atom, count: self.limit }));
             }
             _ => {
                 let expected = "1 for atoms and mass, 3 for com, 6 for inertia";

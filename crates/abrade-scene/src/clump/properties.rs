@@ -104,6 +104,23 @@ impl Report {
     pub fn overlap_share(&self) -> f64 {
         1.0 - self.union.volume / self.summed_volume
     }
+
+    /// How the file's own values differ from the union's, in words; none if it gives none.
+    pub fn difference(&self) -> Option<String> {
+        let named = [
+            ("volume", self.volume_difference),
+            ("centre", self.centre_difference),
+            ("inertia", self.inertia_difference),
+        ];
+        let parts: Vec<String> = named
+            .iter()
+            .filter_map(|(name, difference)| {
+                difference.map(|d| format!("{name} by {:+.2} %", 100.0 * d))
+            })
+            .collect();
+        let all = parts.join(", ");
+        (!parts.is_empty()).then(|| format!("the file's own values differ from the union's: {all}"))
+    }
 }
 
 /// Principal moments in rising order.

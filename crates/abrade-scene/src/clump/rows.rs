@@ -42,14 +42,11 @@ fn is_header(line: &Line) -> bool {
 
 /// Where a header puts x, y, z and the radius; none if it names them otherwise.
 fn columns(line: &Line) -> Result<Option<[usize; 4]>, ClumpError> {
-    let words: Vec<String> = line.words().map(|word| word.trim_matches('"').to_lowercase()).collect();
+    let words: Vec<String> =
+        line.words().map(|word| word.trim_matches('"').to_lowercase()).collect();
     let place = |names: &[&str]| words.iter().position(|word| names.contains(&word.as_str()));
-    let named = [
-        place(&["x"]),
-        place(&["y"]),
-        place(&["z"]),
-        place(&["r", "radius", "radii", "rad"]),
-    ];
+    let named =
+        [place(&["x"]), place(&["y"]), place(&["z"]), place(&["r", "radius", "radii", "rad"])];
     match named {
         [Some(x), Some(y), Some(z), Some(r)] => Ok(Some([x, y, z, r])),
         _ if words.len() >= 4 => Ok(None),

@@ -98,7 +98,11 @@ fn what_is_written_is_read_back() {
         assert_eq!(back.spheres, clump.spheres, "{}", format.name());
         let report = back.report().unwrap();
         for difference in [report.volume_difference, report.inertia_difference] {
-            assert!(difference.is_none_or(|d| d.abs() < 1e-12), "{}: {difference:?}", format.name());
+            assert!(
+                difference.is_none_or(|d| d.abs() < 1e-12),
+                "{}: {difference:?}",
+                format.name()
+            );
         }
     }
 }

@@ -1,0 +1,109 @@
+//! From a checked scene to surfaces and bodies, in the world.
+
+use std::collections::BTreeMap;
+
+use abrade::{Body, Surface, SurfaceError, SurfaceLaws};
+use nalgebra::Isometry3;
+use thiserror::Error;
+
+use crate::check::Checked;
+use crate::place;
+use crate::scene::{Motion, Placement, SceneBody, SceneSurface};
+use crate::solid::Solid;
+
+/// A scene, ready to run.
+#[derive(Clone, Debug)]
+pub struct Built {
+    /// Surfaces by name.
+    pub surfaces: BTreeMap<String, BuiltSurface>,
+    /// Bodies by name; states are in world axes.
+    pub bodies: BTreeMap<String, Body>,
+}
+
+/// A surface and where it lies.
+#[derive(Clone, Debug)]
+pub struct BuiltSurface {
+    /// The surface.
+    pub surface: Surface,
+    /// Its frame in the world.
+    pub pose: Isometry3<f64>,
+}
+
+/// A checked scene that still cannot be built.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum BuildError {
+    /// A surface cannot be built.
+    #[error("the surface `{name}` cannot be built: {error}")]
+    Surface {
+        /// Name of the surface.
+        name: String,
+        /// Why not.
+        error: SurfaceError,
+    },
+    /// A name, rotation or pitch is missing: the scene was changed after its check.
+    #[error("`{name}` is not the scene that was checked")]
+    Unchecked {
+        /// Name of the surface or body.
+        name: String,
+    },
+}
+
+impl Checked {
+    /// Builds the surfaces' nodes and puts every body in its place.
+    ///
+    /// # Errors
+    /// A surface that `abrade` refuses, or a scene that was changed after its check.
+    pub fn build(&self) -> Result<Built, BuildError> {
+        let unchecked = |name: &str| BuildError::Unchecked { name: name.to_owned() };
+        let mut surfaces = BTreeMap::new();
+        for (name, surface) in &self.scene.surfaces {
+            surfaces.insert(name.clone(), self.build_surface(name, surface)?);
+        }
+        let mut bodies = BTreeMap::new();
+        for (name, body) in &self.scene.bodies {
+            let solid = self.solids.get(name).ok_or_else(|| unchecked(name))?;
+            let body = self.build_body(body, solid).ok_or_else(|| unchecked(name))?;
+            bodies.insert(name.clone(), body);
+        }
+        Ok(Built { surfaces, bodies })
+    }
+
+    fn build_surface(
+        &self,
+        name: &str,
+        surface: &SceneSurface,
+    ) -> Result<BuiltSurface, BuildError> {
+        let unchecked = || BuildError::Unchecked { name: name.to_owned() };
+        let material = self.scene.materials.get(&surface.material).ok_or_else(unchecked)?;
+        let strip = place::strip(&surface.geometry).ok_or_else(unchecked)?;
+        let pose = place::frame(surface).ok_or_else(unchecked)?;
+        let laws = SurfaceLaws {
+            material: material.clone(),
+            elastic: surface.elastic.clone(),
+            flow: surface.flow.clone(),
+            removal: surface.removal.clone(),
+        };
+        let surface = Surface::hex_strip(strip, laws)
+            .map_err(|error| BuildError::Surface { name: name.to_owned(), error })?;
+        Ok(BuiltSurface { surface, pose })
+    }
+
+    fn build_body(&self, body: &SceneBody, solid: &Solid) -> Option<Body> {
+        let surface = match &body.position {
+            Placement::OnSurface { surface, .. } => Some(self.scene.surfaces.get(surface)?),
+            Placement::At { .. } => None,
+        };
+        let local = place::local_state(body, solid, surface)?;
+        let state = match surface {
+            Some(surface) => local.placed_by(&place::frame(surface)?),
+            None => local,
+        };
+        let driven = matches!(body.motion, Motion::Drive { .. });
+        Some(Body {
+            shape: solid.shape.clone(),
+            inertia: solid.inertia,
+            state,
+            rotation_locked: body.rotation_locked || driven,
+        })
+    }
+}

@@ -1,0 +1,157 @@
+//! Everything that can be wrong with a scene whose words are right, found in one go: ranges,
+//! names, geometry, and what is not available yet.
+
+mod body;
+mod motion;
+mod run;
+mod surface;
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use abrade::ParameterError;
+
+use crate::patched::Patched;
+use crate::problem::{Mark, Problem, Source, any_of, suggestion};
+use crate::scene::Scene;
+use crate::solid::Solid;
+use crate::spans::{Node, ScenePath};
+
+/// A scene without a known fault, and the solids of its bodies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checked {
+    /// The scene.
+    pub scene: Scene,
+    /// Folder in which the files that it names lie.
+    pub folder: PathBuf,
+    /// Geometry and inertia of each body.
+    pub solids: BTreeMap<String, Solid>,
+    /// What the user should know beside the result.
+    pub notes: Vec<String>,
+}
+
+/// Checks `scene`, whose text is `patched` and whose tree is `tree`.
+pub(crate) fn check(
+    scene: Scene,
+    folder: PathBuf,
+    patched: &mut Patched,
+    tree: &Node,
+) -> Result<Checked, Vec<Problem>> {
+    let mut checker = Checker { scene: &scene, patched, tree, problems: Vec::new() };
+    checker.check_name();
+    checker.check_finite("gravity", &scene.gravity);
+    checker.check_materials();
+    checker.check_surfaces();
+    let mut notes = Vec::new();
+    let solids = checker.check_bodies(&folder, &mut notes);
+    checker.check_run();
+    let problems = checker.problems;
+    match problems.is_empty() {
+        true => Ok(Checked { scene, folder, solids, notes }),
+        false => Err(problems),
+    }
+}
+
+/// Collects problems and finds their places.
+struct Checker<'a> {
+    scene: &'a Scene,
+    patched: &'a mut Patched,
+    tree: &'a Node,
+    problems: Vec<Problem>,
+}
+
+impl Checker<'_> {
+    /// The mark of the value at `path`, or of the nearest that is written on the way to it.
+    fn mark(&self, path: &ScenePath, label: impl Into<String>) -> Mark {
+        let text = &self.patched.text;
+        let found = self.tree.find(text, &path.0);
+        let range = match (found.depth == path.0.len(), &found.key) {
+            (true, _) | (false, None) => found.node.head(text),
+            (false, Some(key)) => key.clone(),
+        };
+        self.patched.mark(range, label)
+    }
+
+    fn refuse(&mut self, path: &ScenePath, message: String, label: impl Into<String>) {
+        let marks = vec![self.mark(path, label)];
+        self.problems.push(Problem { message, marks, help: None });
+    }
+
+    /// A value of the field named in `error`, directly inside `path`.
+    fn out_of_range(&mut self, path: &ScenePath, error: &ParameterError) {
+        let path = path.join(error.field);
+        // An angle's bound, as angles are written.
+        let allowed = error.allowed.replace("1.5707963267948966", "90 deg");
+        self.refuse(&path, format!("`{path}` is out of range"), format!("must be {allowed}"));
+    }
+
+    /// The errors among `results`, each a value inside `path`.
+    fn ranges(
+        &mut self,
+        path: &ScenePath,
+        results: impl IntoIterator<Item = Option<ParameterError>>,
+    ) {
+        for error in results.into_iter().flatten() {
+            self.out_of_range(path, &error);
+        }
+    }
+
+    fn not_available(&mut self, path: &ScenePath, what: &str) {
+        let message = format!("`{what}` is not available yet");
+        self.refuse(path, message, "");
+    }
+
+    /// A name at `path` that should be among `known`.
+    fn undefined(&mut self, path: &ScenePath, kind: &str, name: &str, known: &[&str]) {
+        let label = match known.is_empty() {
+            true => format!("the scene defines no {kind}"),
+            false => format!("expected {}", any_of(known.iter().copied())),
+        };
+        let mark = self.mark(path, label);
+        self.problems.push(Problem {
+            message: format!("there is no {kind} `{name}`"),
+            marks: vec![mark],
+            help: suggestion(name, known.iter().copied()),
+        });
+    }
+
+    /// Adds a source that is no part of the scene's text.
+    fn add_source(&mut self, source: Source) -> usize {
+        self.patched.add_source(source)
+    }
+
+    fn check_finite(&mut self, field: &'static str, values: &[f64]) {
+        let bad = values.iter().find(|value| !value.is_finite());
+        self.ranges(&ScenePath::default(), [bad.map(|&value| finite(field, value))]);
+    }
+
+    /// The name becomes a folder's.
+    fn check_name(&mut self) {
+        let name = &self.scene.name;
+        let forbidden = |c: char| matches!(c, '/' | '\\') || c.is_control();
+        if name.trim().is_empty() || name.starts_with('.') || name.contains(forbidden) {
+            let path = ScenePath::of(["name"]);
+            let label = "must name a folder: not empty, no leading `.`, no `/` or `\\`";
+            self.refuse(&path, "`name` cannot be the name of a folder".into(), label);
+        }
+    }
+
+    fn check_materials(&mut self) {
+        for (name, material) in &self.scene.materials {
+            let path = ScenePath::of(["materials", name]);
+            self.ranges(&path, material.check().into_iter().map(Some));
+        }
+    }
+}
+
+/// The error of a value that is not finite.
+fn finite(field: &'static str, value: f64) -> ParameterError {
+    ParameterError { field, value, allowed: "finite".into() }
+}
+
+/// An error unless `value` is finite and not below zero.
+fn not_negative(field: &'static str, value: f64) -> Option<ParameterError> {
+    let fine = value.is_finite() && value >= 0.0;
+    let allowed = "finite and not below zero".to_owned();
+    (!fine).then_some(ParameterError { field, value, allowed })
+}

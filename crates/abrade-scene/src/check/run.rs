@@ -1,0 +1,70 @@
+//! Checks of the run, the outputs and the streams.
+
+use abrade::ParameterError;
+
+use super::Checker;
+use crate::scene::{Motion, Output, Resolve, Stop};
+use crate::spans::ScenePath;
+
+impl Checker<'_> {
+    pub(super) fn check_run(&mut self) {
+        self.check_stop();
+        let path = ScenePath::of(["run"]);
+        let run = &self.scene.run;
+        self.ranges(
+            &path,
+            [
+                ParameterError::within("accuracy", run.accuracy, 1e-9, 0.5),
+                ParameterError::positive("step", run.step),
+            ],
+        );
+        match run.resolve {
+            Resolve::Auto | Resolve::Micro => {}
+            Resolve::QuasiStatic => self.not_available(&path.join("resolve"), "QuasiStatic"),
+            Resolve::Lockstep => self.not_available(&path.join("resolve"), "Lockstep"),
+        }
+        for (i, output) in self.scene.outputs.iter().enumerate() {
+            self.check_output(&ScenePath::of(["outputs".to_owned(), i.to_string()]), output);
+        }
+        for name in self.scene.streams.keys() {
+            self.not_available(&ScenePath::of(["streams", name]), "streams");
+        }
+    }
+
+    fn check_stop(&mut self) {
+        let path = ScenePath::of(["run", "stop"]);
+        match self.scene.run.stop {
+            Stop::Time { limit } => self.ranges(&path, [ParameterError::positive("limit", limit)]),
+            Stop::Impacts { count: 0 } => {
+                let allowed = "at least 1".to_owned();
+                self.out_of_range(&path, &ParameterError { field: "count", value: 0.0, allowed });
+            }
+            Stop::Distance => {
+                let drives = |motion: &Motion| matches!(motion, Motion::Drive { .. });
+                if !self.scene.bodies.values().any(|body| drives(&body.motion)) {
+                    let message = "`Distance` stops a driven body, and no body is driven".into();
+                    self.refuse(&path, message, "no body has the motion `Drive(..)`");
+                }
+            }
+            Stop::AllRebounded | Stop::FirstExit | Stop::Impacts { .. } => {}
+        }
+    }
+
+    fn check_output(&mut self, path: &ScenePath, output: &Output) {
+        match output {
+            Output::History { every } => {
+                self.ranges(path, [ParameterError::positive("every", *every)]);
+            }
+            Output::Surface { at: Some(_), every: Some(_) } => {
+                let message = format!("`{path}` has both `at` and `every`");
+                self.refuse(path, message, "give one of them");
+            }
+            Output::Surface { every, .. } => {
+                let error = every.and_then(|every| ParameterError::positive("every", every));
+                self.ranges(path, [error]);
+            }
+            Output::Checkpoint => self.not_available(path, "Checkpoint"),
+            Output::Bodies | Output::Picture | Output::Energy | Output::Report => {}
+        }
+    }
+}

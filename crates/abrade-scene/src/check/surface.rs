@@ -1,0 +1,112 @@
+//! Checks of surfaces.
+
+use abrade::{FlowLaw, Lateral, ParameterError, SurfaceError, SurfaceLaws};
+
+use super::{Checker, finite};
+use crate::place;
+use crate::problem::Problem;
+use crate::scene::{Geometry, SceneSurface, SurfaceMotion};
+use crate::spans::ScenePath;
+
+/// Nodes that `abrade` allows a surface to have.
+const NODE_LIMIT: f64 = 2e8;
+
+impl Checker<'_> {
+    pub(super) fn check_surfaces(&mut self) {
+        for (name, surface) in &self.scene.surfaces {
+            let path = ScenePath::of(["surfaces", name]);
+            self.check_geometry(&path, name, surface);
+            self.check_laws(&path, surface);
+            match surface.motion {
+                SurfaceMotion::Fixed => {}
+                SurfaceMotion::Kinematic { .. } => {
+                    self.not_available(&path.join("motion"), "Kinematic");
+                }
+                SurfaceMotion::Free { .. } => self.not_available(&path.join("motion"), "Free"),
+            }
+            let position = surface.position.iter().find(|x| !x.is_finite());
+            self.ranges(&path, [position.map(|&x| finite("position", x))]);
+            if place::rotation(&surface.rotation).is_none() {
+                self.no_direction(&path.join("rotation"));
+            }
+        }
+    }
+
+    pub(super) fn no_direction(&mut self, path: &ScenePath) {
+        let message = format!("`{path}` has no direction");
+        self.refuse(path, message, "must be finite and of a length above zero");
+    }
+
+    fn check_geometry(&mut self, path: &ScenePath, name: &str, surface: &SceneSurface) {
+        let path = path.join("geometry");
+        let Geometry::HexStrip { pitch, nodes, .. } = surface.geometry;
+        if pitch.is_some() == nodes.is_some() {
+            let message = format!("`{path}` must have either `pitch` or `nodes`");
+            return self.refuse(&path, message, "give one of them");
+        }
+        if nodes == Some(0) {
+            let error = ParameterError { field: "nodes", value: 0.0, allowed: "at least 1".into() };
+            return self.out_of_range(&path, &error);
+        }
+        let Some(strip) = place::strip(&surface.geometry) else { return };
+        let mut errors = strip.check();
+        if nodes.is_some() {
+            errors.retain(|error| error.field != "pitch");
+        }
+        if !errors.is_empty() {
+            return self.ranges(&path, errors.into_iter().map(Some));
+        }
+        let [columns, rows] = strip.columns_rows();
+        let label = format!("gives {columns} columns of {rows} rows");
+        if columns * rows < 1.0 {
+            self.refuse(&path, format!("the surface `{name}` has no nodes"), label);
+        } else if columns * rows > NODE_LIMIT || !(columns * rows).is_finite() {
+            let message = format!("the surface `{name}` has more than {NODE_LIMIT:.0e} nodes");
+            self.refuse(&path, message, label);
+        }
+    }
+
+    fn check_laws(&mut self, path: &ScenePath, surface: &SceneSurface) {
+        let errors = surface.elastic.check();
+        self.ranges(&path.join("elastic"), errors.into_iter().map(Some));
+        let errors = surface.removal.check();
+        self.ranges(&path.join("removal"), errors.into_iter().map(Some));
+        let Some(material) = self.scene.materials.get(&surface.material) else {
+            let known: Vec<&str> = self.scene.materials.keys().map(String::as_str).collect();
+            let name = &surface.material;
+            return self.undefined(&path.join("material"), "material", name, &known);
+        };
+        let laws = SurfaceLaws {
+            material: material.clone(),
+            elastic: surface.elastic.clone(),
+            flow: surface.flow.clone(),
+            removal: surface.removal.clone(),
+        };
+        for error in laws.check() {
+            if let SurfaceError::Missing { law, field } = error {
+                self.missing(path, &surface.material, law, field);
+            }
+        }
+    }
+
+    /// A law lacks a property of the surface's material.
+    fn missing(&mut self, path: &ScenePath, material: &str, law: &str, field: &str) {
+        let marks = vec![
+            self.mark(&path.join("elastic"), format!("needs `{field}`")),
+            self.mark(
+                &ScenePath::of(["materials", material, field]),
+                format!("gives no `{field}`"),
+            ),
+        ];
+        let message =
+            format!("{law} needs `{field}`, which the material `{material}` does not give");
+        self.problems.push(Problem { message, marks, help: None });
+    }
+
+    /// Surfaces whose law is for balls alone.
+    pub(super) fn for_balls_alone(&self) -> Vec<String> {
+        let eq5 = FlowLaw::CapozzaHanley { lateral: Lateral::Eq5 };
+        let surfaces = self.scene.surfaces.iter();
+        surfaces.filter(|(_, s)| s.flow == eq5).map(|(name, _)| name.clone()).collect()
+    }
+}
