@@ -30,7 +30,7 @@ fn strip(length: f64, width: f64, pitch: f64, depth: impl Fn(f64, f64) -> f64) -
 /// A lopsided bowl of `depth`, `length` by `width` about (x, y) [m].
 fn bowl(x: f64, y: f64, depth: f64, length: f64, width: f64) -> f64 {
     let (a, b) = (2.0 * x / length, 2.0 * y / width);
-    depth * (1.0 - a * a * (1.0 - 0.3 * a) - b * b)
+    if a.abs() > 1.5 { 0.0 } else { depth * (1.0 - a * a * (1.0 - 0.3 * a) - b * b) }
 }
 
 fn main() -> Result<(), Box<dyn Error>> {

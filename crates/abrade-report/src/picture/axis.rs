@@ -6,9 +6,9 @@ use crate::error::ReportError;
 use crate::units::{Unit, tick_text, ticks};
 
 /// Length of a tick [pixels].
-const TICK: f64 = 6.0;
-/// Distance between ticks that is aimed at [pixels].
-const PACE: f64 = 90.0;
+const TICK: f64 = 7.0;
+/// Distance between ticks that is aimed at, across and down [pixels].
+const PACE: [f64; 2] = [110.0, 64.0];
 
 /// A linear scale: values `ends` [SI] stand at the two ends of a side.
 #[derive(Clone, Copy, Debug)]
@@ -22,37 +22,40 @@ pub(super) struct Scale<'a> {
 impl Scale<'_> {
     /// Along the lower side of `rect`, from left to right.
     pub(super) fn below(&self, canvas: &mut Canvas, rect: &Rect) -> Result<(), ReportError> {
-        for (share, text) in self.marks(rect.width() / PACE) {
+        for (share, text) in self.marks(rect.width() / PACE[0]) {
             let x = rect.left + share * rect.width();
             canvas.line(&[[x, rect.bottom], [x, rect.bottom + TICK]], INK, 1.0)?;
-            canvas.text([x, rect.bottom + 19.0], &text, Text::default())?;
+            canvas.text([x, rect.bottom + 23.0], &text, Text::default());
         }
-        let middle = [(rect.left + rect.right) / 2.0, rect.bottom + 44.0];
-        canvas.text(middle, &self.label(), Text::default())
+        let middle = [(rect.left + rect.right) / 2.0, rect.bottom + 54.0];
+        canvas.text(middle, &self.label(), Text::default());
+        Ok(())
     }
 
     /// Along the left side of `rect`, from top to bottom.
     pub(super) fn left(&self, canvas: &mut Canvas, rect: &Rect) -> Result<(), ReportError> {
-        for (share, text) in self.marks(rect.height() / PACE) {
+        for (share, text) in self.marks(rect.height() / PACE[1]) {
             let y = rect.top + share * rect.height();
             canvas.line(&[[rect.left - TICK, y], [rect.left, y]], INK, 1.0)?;
-            let look = Text { align: Align::RIGHT, ..Text::default() };
-            canvas.text([rect.left - 11.0, y], &text, look)?;
+            let look = Text { align: Align::Right, ..Text::default() };
+            canvas.text([rect.left - 13.0, y], &text, look);
         }
-        let middle = [rect.left - 76.0, (rect.top + rect.bottom) / 2.0];
-        canvas.text(middle, &self.label(), Text { upright: true, ..Text::default() })
+        let middle = [rect.left - 84.0, (rect.top + rect.bottom) / 2.0];
+        canvas.text(middle, &self.label(), Text { upright: true, ..Text::default() });
+        Ok(())
     }
 
     /// Along the right side of `rect`, from top to bottom, named above.
     pub(super) fn right(&self, canvas: &mut Canvas, rect: &Rect) -> Result<(), ReportError> {
-        for (share, text) in self.marks(rect.height() / PACE) {
+        for (share, text) in self.marks(rect.height() / PACE[1]) {
             let y = rect.top + share * rect.height();
             canvas.line(&[[rect.right, y], [rect.right + TICK, y]], INK, 1.0)?;
-            let look = Text { align: Align::LEFT, ..Text::default() };
-            canvas.text([rect.right + 11.0, y], &text, look)?;
+            let look = Text { align: Align::Left, ..Text::default() };
+            canvas.text([rect.right + 13.0, y], &text, look);
         }
-        let look = Text { align: Align::LEFT, ..Text::default() };
-        canvas.text([rect.left, rect.top - 20.0], &self.label(), look)
+        let look = Text { align: Align::Left, ..Text::default() };
+        canvas.text([rect.left, rect.top - 24.0], &self.label(), look);
+        Ok(())
     }
 
     fn label(&self) -> String {

@@ -1,29 +1,21 @@
 //! A sheet to draw on, in pixels of the finished picture. It is kept larger than the picture and
 //! averaged down at the end, which smooths every edge.
 
-use std::sync::OnceLock;
-
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::register_font;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::colour::{INK, Rgb};
+use super::colour::{INK, Rgb, blend};
+use super::letters::Fonts;
 use crate::error::ReportError;
 
 /// Sheet pixels per picture pixel.
 pub(super) const SCALE: usize = 2;
 
-const REGULAR: &[u8] = include_bytes!("../../fonts/OpenSans-Regular.ttf");
-const BOLD: &[u8] = include_bytes!("../../fonts/OpenSans-Semibold.ttf");
-const FONT: &str = "abrade";
-/// Mean width of a letter over its size.
-const LETTER: f64 = 0.55;
-
 /// The sheet.
 pub(super) struct Canvas {
     size: [usize; 2],
     pixels: Vec<u8>,
+    fonts: Fonts,
 }
 
 /// A part of the picture [pixels].
@@ -46,46 +38,26 @@ pub(super) struct Text {
     pub(super) upright: bool,
 }
 
-/// Which point of a text is placed.
+/// Which end of a text is placed; up and down it is the middle of a capital.
 #[derive(Clone, Copy)]
-pub(super) struct Align(HPos, VPos);
-
-impl Align {
-    pub(super) const LEFT: Self = Self(HPos::Left, VPos::Center);
-    pub(super) const RIGHT: Self = Self(HPos::Right, VPos::Center);
-    pub(super) const CENTRE: Self = Self(HPos::Center, VPos::Center);
+pub(super) enum Align {
+    Left,
+    Centre,
+    Right,
 }
 
 impl Default for Text {
     fn default() -> Self {
-        Self { size: 16.0, bold: false, colour: INK, align: Align::CENTRE, upright: false }
-    }
-}
-
-impl Text {
-    /// `text`, cut to about `width` pixels.
-    pub(super) fn fitted(&self, text: &str, width: f64) -> String {
-        let letters = (width / (LETTER * self.size)) as usize;
-        match text.chars().count() > letters {
-            true => text.chars().take(letters.saturating_sub(1)).chain(['…']).collect(),
-            false => text.to_owned(),
-        }
+        Self { size: 20.0, bold: false, colour: INK, align: Align::Centre, upright: false }
     }
 }
 
 impl Canvas {
     /// A white sheet for a picture of this size.
     pub(super) fn new(width: usize, height: usize) -> Result<Self, ReportError> {
-        static FONTS: OnceLock<bool> = OnceLock::new();
-        let known = *FONTS.get_or_init(|| {
-            register_font(FONT, FontStyle::Normal, REGULAR).is_ok()
-                && register_font(FONT, FontStyle::Bold, BOLD).is_ok()
-        });
         let size = [width * SCALE, height * SCALE];
-        match known {
-            true => Ok(Self { size, pixels: vec![255; size[0] * size[1] * 3] }),
-            false => Err(ReportError::Font { name: "Open Sans" }),
-        }
+        let pixels = vec![255; size[0] * size[1] * 3];
+        Ok(Self { size, pixels, fonts: Fonts::load()? })
     }
 
     /// Sets the sheet's own pixels inside `rect`, row by row; `None` leaves one as it is.
@@ -134,13 +106,37 @@ impl Canvas {
         self.line(&corners, colour, 1.0)
     }
 
-    pub(super) fn text(&mut self, at: [f64; 2], text: &str, look: Text) -> Result<(), ReportError> {
-        let style = if look.bold { FontStyle::Bold } else { FontStyle::Normal };
-        let turn = if look.upright { FontTransform::Rotate270 } else { FontTransform::None };
-        let font = (FONT, look.size * SCALE as f64, style).into_font().transform(turn);
-        let Align(across, down) = look.align;
-        let style = font.color(&rgb(look.colour)).pos(Pos::new(across, down));
-        self.draw(|area| area.draw_text(text, &style, (sheet(at[0]), sheet(at[1]))))
+    pub(super) fn text(&mut self, at: [f64; 2], text: &str, look: Text) {
+        let size = look.size * SCALE as f64;
+        let width = self.fonts.width(text, size, look.bold);
+        let back = match look.align {
+            Align::Left => 0.0,
+            Align::Centre => width / 2.0,
+            Align::Right => width,
+        };
+        let (x, y, back) = (sheet(at[0]), sheet(at[1]), back.round() as i32);
+        let [columns, rows] = self.size.map(|side| side as i32);
+        let pixels = &mut self.pixels;
+        self.fonts.draw(text, size, look.bold, |along, down, share| {
+            let along = along - back;
+            let (x, y) = if look.upright { (x + down, y - along) } else { (x + along, y + down) };
+            if (0..columns).contains(&x) && (0..rows).contains(&y) {
+                let i = 3 * (y * columns + x) as usize;
+                let under = [pixels[i], pixels[i + 1], pixels[i + 2]];
+                pixels[i..i + 3].copy_from_slice(&blend(under, look.colour, f64::from(share)));
+            }
+        });
+    }
+
+    /// `text`, cut to `width` pixels.
+    pub(super) fn fitted(&self, text: &str, look: Text, width: f64) -> String {
+        let fits = |text: &str| self.fonts.width(text, look.size, look.bold) <= width;
+        let mut kept = text.to_owned();
+        let mut line = kept.clone();
+        while !fits(&line) && kept.pop().is_some() {
+            line = format!("{}…", kept.trim_end());
+        }
+        line
     }
 
     /// The finished picture as PNG.

@@ -15,16 +15,24 @@ pub(super) const UNTOUCHED: Rgb = [233, 234, 237];
 /// The material below a cross-section.
 pub(super) const BODY: Rgb = [214, 217, 222];
 
+/// `over` laid on `under` with the opacity `share`.
+pub(super) fn blend(under: Rgb, over: Rgb, share: f64) -> Rgb {
+    let share = share.clamp(0.0, 1.0);
+    let mix = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * share).round() as u8;
+    std::array::from_fn(|i| mix(under[i], over[i]))
+}
+
 /// Lightness, chroma and hue [rad] at no depth and at the largest.
 const SHALLOW: [f64; 3] = [0.93, 0.150, 1.83];
 const DEEP: [f64; 3] = [0.22, 0.120, 5.15];
+/// The screen shows less chroma between the ends, in green and blue, than a straight path asks for.
+const DIP: f64 = 0.045;
 
 /// Colour of a depth, as a share of the largest.
 pub(super) fn of_share(share: f64) -> Rgb {
     let t = share.clamp(0.0, 1.0);
     let [l, c, h] = std::array::from_fn(|i| SHALLOW[i] + (DEEP[i] - SHALLOW[i]) * t);
-    // Between yellow and violet the displayable chroma is smaller than at the ends' mean.
-    let mut chroma = c;
+    let mut chroma = c - DIP * (std::f64::consts::PI * t).sin();
     loop {
         let rgb = linear_rgb(l, chroma * h.cos(), chroma * h.sin());
         if rgb.iter().all(|v| (-1e-4..=1.0001).contains(v)) || chroma < 1e-3 {

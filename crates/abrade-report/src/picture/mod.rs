@@ -7,9 +7,11 @@
 mod axis;
 mod canvas;
 mod colour;
+mod letters;
 mod plan;
 mod raster;
 mod section;
+mod slope;
 mod view;
 
 use std::path::Path;
@@ -47,17 +49,17 @@ pub struct Mark<'a> {
 pub const WIDTH: usize = 1400;
 
 /// Left and right edge of both halves [pixels].
-const SIDES: (f64, f64) = (100.0, 1250.0);
+const SIDES: (f64, f64) = (116.0, 1240.0);
 /// Top of the plan view [pixels].
-const PLAN_TOP: f64 = 112.0;
+const PLAN_TOP: f64 = 124.0;
 /// Least and largest height of the plan view [pixels].
-const PLAN_HEIGHT: (f64, f64) = (300.0, 620.0);
+const PLAN_HEIGHT: (f64, f64) = (320.0, 720.0);
 /// From the plan view to the cross-section [pixels].
-const GAP: f64 = 88.0;
+const GAP: f64 = 116.0;
 /// Height of the cross-section [pixels].
-const SECTION_HEIGHT: f64 = 220.0;
+const SECTION_HEIGHT: f64 = 240.0;
 /// Below the cross-section [pixels].
-const FOOT: f64 = 72.0;
+const FOOT: f64 = 80.0;
 
 impl Picture<'_> {
     /// The picture as the bytes of a PNG file.
@@ -76,7 +78,7 @@ impl Picture<'_> {
         let top = plan.bottom + GAP;
         let section = Rect { top, bottom: top + SECTION_HEIGHT, ..plan };
         let mut canvas = Canvas::new(WIDTH, (section.bottom + FOOT) as usize)?;
-        self.head(&mut canvas, &view)?;
+        self.head(&mut canvas, &view);
         plan::draw(&mut canvas, &plan, &view, self.nodes, self.marks)?;
         section::draw(&mut canvas, &section, &view, self.nodes)?;
         canvas.to_png()
@@ -90,11 +92,12 @@ impl Picture<'_> {
         atomic::write(path, &self.to_png()?)
     }
 
-    fn head(&self, canvas: &mut Canvas, view: &View) -> Result<(), ReportError> {
-        let title = Text { size: 27.0, bold: true, align: Align::LEFT, ..Text::default() };
-        canvas.text([SIDES.0, 38.0], &title.fitted(self.title, 1200.0), title)?;
-        let caption = Text { size: 18.0, align: Align::LEFT, colour: colour::SOFT, ..title };
-        canvas.text([SIDES.0, 74.0], &self.caption(view), Text { bold: false, ..caption })
+    fn head(&self, canvas: &mut Canvas, view: &View) {
+        let title = Text { size: 34.0, bold: true, align: Align::Left, ..Text::default() };
+        let line = canvas.fitted(self.title, title, WIDTH as f64 - 1.5 * SIDES.0);
+        canvas.text([SIDES.0, 40.0], &line, title);
+        let caption = Text { size: 22.0, align: Align::Left, colour: colour::SOFT, ..title };
+        canvas.text([SIDES.0, 87.0], &self.caption(view), Text { bold: false, ..caption });
     }
 
     fn caption(&self, view: &View) -> String {

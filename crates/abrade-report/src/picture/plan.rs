@@ -13,8 +13,6 @@ use crate::units::{of_extent, of_length};
 
 /// Steps of the colour bar.
 const SHADES: usize = 512;
-/// Shares of the largest depth below this are drawn as untouched; above the faint cone's weight.
-const UNTOUCHED_SHARE: f64 = 2e-5;
 
 /// Draws the plan view into `rect`.
 pub(super) fn draw(
@@ -35,8 +33,9 @@ pub(super) fn draw(
             section_line(canvas, rect, view.share(deepest.at)[1])?;
         }
         None => {
-            let middle = [(rect.left + rect.right) / 2.0, (rect.top + rect.bottom) / 2.0];
-            canvas.text(middle, "no wear", Text { size: 28.0, colour: SOFT, ..Text::default() })?;
+            // Above the middle, where marks are likely.
+            let middle = [(rect.left + rect.right) / 2.0, rect.top + 0.36 * rect.height()];
+            canvas.text(middle, "no wear", Text { size: 34.0, colour: SOFT, ..Text::default() });
         }
     }
     marks.iter().try_for_each(|mark| point_at(canvas, rect, view, mark))
@@ -66,15 +65,15 @@ fn shades() -> Vec<Rgb> {
 }
 
 fn shade(shades: &[Rgb], share: f64) -> Rgb {
-    match share > UNTOUCHED_SHARE {
+    match share > 0.0 {
         true => shades[((share * (SHADES - 1) as f64).round() as usize).min(SHADES - 1)],
         false => UNTOUCHED,
     }
 }
 
 fn colour_bar(canvas: &mut Canvas, rect: &Rect, largest: f64) -> Result<(), ReportError> {
-    let bar = Rect { left: rect.right + 40.0, right: rect.right + 64.0, ..*rect };
-    let bar = Rect { top: bar.top + 34.0, ..bar };
+    let bar = Rect { left: rect.right + 32.0, right: rect.right + 60.0, ..*rect };
+    let bar = Rect { top: bar.top + 40.0, ..bar };
     let [_, rows] = bar.sheet_size();
     let shades = shades();
     canvas.paint(&bar, |_, row| Some(shades[row * SHADES / rows]));
@@ -112,12 +111,13 @@ fn point_at(
     canvas.dot([x, y], 6.0, WHITE)?;
     canvas.dot([x, y], 4.5, INK)?;
     let leftward = share[0] > 0.85;
-    let align = if leftward { Align::RIGHT } else { Align::LEFT };
+    let align = if leftward { Align::Right } else { Align::Left };
     let at = [x + if leftward { -13.0 } else { 13.0 }, y];
     // A light rim keeps the name readable on every colour.
     for (dx, dy) in [(-1.5, 0.0), (1.5, 0.0), (0.0, -1.5), (0.0, 1.5), (1.0, 1.0), (-1.0, -1.0)] {
         let rim = Text { colour: WHITE, align, ..Text::default() };
-        canvas.text([at[0] + dx, at[1] + dy], mark.label, rim)?;
+        canvas.text([at[0] + dx, at[1] + dy], mark.label, rim);
     }
-    canvas.text(at, mark.label, Text { align, ..Text::default() })
+    canvas.text(at, mark.label, Text { align, ..Text::default() });
+    Ok(())
 }

@@ -4,15 +4,17 @@
 use abrade::Nodes;
 
 use super::axis::Scale;
-use super::canvas::{Align, Canvas, Rect, Text};
-use super::colour::{self, BODY, INK, SOFT};
+use super::canvas::{Align, Canvas, Rect, SCALE, Text};
+use super::colour::{self, BODY, INK, SOFT, WHITE, blend};
 use super::raster::{self, Grid};
 use super::view::View;
 use crate::error::ReportError;
 use crate::units::{of_extent, of_length, tick_text};
 
 /// From the top of the half to the undeformed surface [pixels].
-const AIR: f64 = 26.0;
+const AIR: f64 = 28.0;
+/// Width of the outline [pixels].
+const LINE: f64 = 2.0;
 /// Share of the room below the surface that the deepest node may take.
 const FULL: f64 = 0.9;
 /// Depth that an untouched surface's axis shows, as a share of the width.
@@ -40,17 +42,17 @@ pub(super) fn draw(
     let y = view.deepest.as_ref().map_or((view.low[1] + view.high[1]) / 2.0, |d| d.at[1]);
     let profile = profile(rect, view, nodes, y);
     paint(canvas, rect, &profile, largest, stretch);
-    outline(canvas, rect, &profile, stretch)?;
     canvas.frame(rect, INK)?;
     let below = Rect { top: rect.top + AIR, ..*rect };
     let ends = [0.0, below.height() * stretch.pixel];
     Scale { ends, unit: of_length(range), name: "depth" }.left(canvas, &below)?;
     let unit = of_extent(width);
     Scale { ends: [view.low[0], view.high[0]], unit, name: "x" }.below(canvas, rect)?;
-    let place = tick_text(y / unit.size, 3);
+    let place = trimmed(y / unit.size, 3);
     let title = format!("cross-section at y = {place} {}, {}", unit.name, stretch.words());
-    let look = Text { align: Align::LEFT, colour: SOFT, ..Text::default() };
-    canvas.text([rect.left, rect.top - 16.0], &title, look)
+    let look = Text { align: Align::Left, colour: SOFT, ..Text::default() };
+    canvas.text([rect.left, rect.top - 20.0], &title, look);
+    Ok(())
 }
 
 /// Depth in every column of the sheet [m]; NaN beyond the surface's rim.
@@ -69,36 +71,35 @@ fn profile(rect: &Rect, view: &View, nodes: &Nodes, y: f64) -> Vec<f64> {
     field.iter().enumerate().map(kept).collect()
 }
 
+/// Above the surface nothing, then what was worn off, the outline, and what is left.
 fn paint(canvas: &mut Canvas, rect: &Rect, profile: &[f64], largest: f64, stretch: Stretch) {
-    let per_pixel = stretch.pixel / super::canvas::SCALE as f64;
-    let air = AIR * super::canvas::SCALE as f64;
+    let per_pixel = stretch.pixel / SCALE as f64;
+    let air = AIR * SCALE as f64;
+    let line: Vec<f64> = profile.iter().map(|depth| depth / per_pixel).collect();
     canvas.paint(rect, |column, row| {
-        let here = (row as f64 + 0.5 - air) * per_pixel;
-        let depth = profile[column];
-        match here < 0.0 || depth.is_nan() {
-            true => None,
-            false if here < depth => Some(colour::of_share(here / largest)),
-            false => Some(BODY),
-        }
+        let here = row as f64 + 0.5 - air;
+        let away = here - line[column];
+        let ground = match (here < 0.0, away < 0.0) {
+            (true, _) => WHITE,
+            (false, true) => colour::of_share(here * per_pixel / largest),
+            (false, false) => BODY,
+        };
+        let cover = LINE * SCALE as f64 / 2.0 + 0.5 - distance(&line, column, here);
+        (!away.is_nan()).then(|| blend(ground, INK, cover))
     });
 }
 
-fn outline(
-    canvas: &mut Canvas,
-    rect: &Rect,
-    profile: &[f64],
-    stretch: Stretch,
-) -> Result<(), ReportError> {
-    let surface = rect.top + AIR;
-    let point = |(column, depth): (usize, &f64)| {
-        let x = rect.left + (column as f64 + 0.5) / super::canvas::SCALE as f64;
-        [x, surface + depth / stretch.pixel]
-    };
-    let points: Vec<_> = profile.iter().enumerate().map(point).collect();
-    for piece in points.split(|p| p[1].is_nan()).filter(|piece| piece.len() > 1) {
-        canvas.line(piece, INK, 1.5)?;
-    }
-    Ok(())
+/// Distance of a point in the middle of `column`, `down` below the surface, from a line with one
+/// height per column [sheet pixels].
+fn distance(line: &[f64], column: usize, down: f64) -> f64 {
+    let reach = LINE as usize * SCALE;
+    let columns = column.saturating_sub(reach)..(column + reach).min(line.len() - 1);
+    let near = columns.map(|i| {
+        let (x, y, rise) = (column as f64 - i as f64, down - line[i], line[i + 1] - line[i]);
+        let along = ((x + y * rise) / (1.0 + rise * rise)).clamp(0.0, 1.0);
+        (x - along).hypot(y - along * rise)
+    });
+    near.filter(|d| d.is_finite()).fold(f64::INFINITY, f64::min)
 }
 
 impl Stretch {
@@ -116,21 +117,31 @@ impl Stretch {
     fn words(self) -> String {
         match self.factor {
             f if (f - 1.0).abs() < 1e-9 => "true proportions".to_owned(),
-            f if f > 1.0 => format!("depth exaggerated {}×", trimmed(f)),
-            f => format!("depth shortened to {}×", trimmed(f)),
+            f if f > 1.0 => format!("depth exaggerated {}×", trimmed(f, 6)),
+            f => format!("depth shortened to {}×", trimmed(f, 6)),
         }
     }
 }
 
-/// A round factor without the noise of its last digits.
-fn trimmed(factor: f64) -> String {
-    let text = format!("{factor:.6}");
+/// At most `decimals` decimals, without trailing zeros.
+fn trimmed(value: f64, decimals: usize) -> String {
+    let text = tick_text(value, decimals);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A program that measured the distance straight down would draw a steep wall as a hair, or
+    /// let it stand above its own ends.
+    #[test]
+    fn a_wall_is_as_wide_as_a_floor() {
+        let line = [vec![0.0; 10], vec![50.0; 10]].concat();
+        assert!((distance(&line, 5, 3.0) - 3.0).abs() < 1e-12);
+        assert!((distance(&line, 9, 25.0) - 0.5).abs() < 0.02);
+        assert!((distance(&line, 9, -20.0) - 20.0).abs() < 1e-12);
+    }
 
     /// A program that inverted the ratio would flatten a shallow crater, one that rounded up
     /// would let the deepest node fall out of the frame.

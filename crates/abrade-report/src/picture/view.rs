@@ -206,7 +206,7 @@ fn window(
         let half = size[k] / 2.0;
         match size[k] <= span(surface, k) {
             true => wish.clamp(surface[0][k] + half, surface[1][k] - half),
-            false => wish,
+            false => (surface[0][k] + surface[1][k]) / 2.0,
         }
     });
     [-0.5, 0.5].map(|side| [0, 1].map(|k| middle[k] + side * size[k]))
