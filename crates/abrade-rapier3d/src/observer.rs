@@ -5,7 +5,7 @@ use nalgebra::{Isometry3, Vector3};
 use rapier::dynamics::RigidBodyHandle;
 
 /// An accepted contact step of one body.
-pub struct MicroStep<'a> {
+pub struct MicroStep<'a, 'b> {
     /// The body.
     pub body: RigidBodyHandle,
     /// Time since the embedder's step began [s].
@@ -14,16 +14,16 @@ pub struct MicroStep<'a> {
     pub frame: &'a Isometry3<f64>,
     /// State, force, surfaces and ledger in that frame; its own time counts from the last call
     /// into the core.
-    pub instant: &'a Instant<'a>,
+    pub instant: &'a Instant<'a, 'b>,
 }
 
 /// Sees every accepted contact step.
 pub trait WearObserver {
     /// Called once per accepted contact step, body after body.
-    fn micro_step(&mut self, step: &MicroStep<'_>);
+    fn micro_step(&mut self, step: &MicroStep<'_, '_>);
 }
 
-impl MicroStep<'_> {
+impl MicroStep<'_, '_> {
     /// State of the body in the world.
     pub fn state_world(&self) -> State {
         self.instant.state.placed_by(self.frame)
@@ -37,7 +37,7 @@ impl MicroStep<'_> {
 
 /// Sees nothing.
 impl WearObserver for () {
-    fn micro_step(&mut self, _: &MicroStep<'_>) {}
+    fn micro_step(&mut self, _: &MicroStep<'_, '_>) {}
 }
 
 /// Passes the core's instants on, with body, frame and time added.
@@ -50,7 +50,7 @@ pub(crate) struct Relay<'a> {
 }
 
 impl Observer for Relay<'_> {
-    fn observe(&mut self, instant: &Instant<'_>) {
+    fn observe(&mut self, instant: &Instant<'_, '_>) {
         self.observer.micro_step(&MicroStep {
             body: self.body,
             time: self.began + instant.time,

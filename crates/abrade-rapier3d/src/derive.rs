@@ -1,0 +1,166 @@
+//! The core's body behind a rigid body: geometry from its colliders, about its centre of mass.
+
+use abrade::{Ball, Hull, Inertia, Piece, Shape, ShapeError, cuboid_vertices};
+use nalgebra::{Isometry3, Point3, Vector3};
+use rapier::dynamics::RigidBody;
+use rapier::geometry::{Collider, ColliderHandle, ColliderSet};
+use rapier::math::Pose;
+use rapier::parry::shape::{Shape as RapierShape, TypedShape};
+
+use crate::event::Refusal;
+use crate::obstacle::extent;
+use crate::scalar;
+
+/// What a collider looked like when its body was derived: two equal prints, one geometry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Print {
+    collider: ColliderHandle,
+    pose: Pose,
+    solid: bool,
+    numbers: [f64; 3],
+    address: usize,
+}
+
+/// The prints of a body's colliders, in their order.
+pub(crate) fn prints<'a>(
+    body: &'a RigidBody,
+    colliders: &'a ColliderSet,
+) -> impl Iterator<Item = Print> + 'a {
+    solids(body, colliders, false).map(|(handle, collider)| {
+        let (numbers, address) = match collider.shape().as_typed_shape() {
+            TypedShape::Ball(ball) => ([scalar::wide(ball.radius), 0.0, 0.0], 0),
+            TypedShape::Cuboid(cuboid) => (scalar::vector(cuboid.half_extents).into(), 0),
+            TypedShape::ConvexPolyhedron(hull) => {
+                ([hull.points().len() as f64, 0.0, 0.0], hull.points().as_ptr().addr())
+            }
+            TypedShape::Compound(compound) => {
+                ([compound.shapes().len() as f64, 0.0, 0.0], compound.shapes().as_ptr().addr())
+            }
+            _ => ([0.0; 3], std::ptr::from_ref(collider.shape()).cast::<u8>().addr()),
+        };
+        let pose = collider.position_wrt_parent().copied().unwrap_or(Pose::IDENTITY);
+        Print { collider: handle, pose, solid: is_solid(collider), numbers, address }
+    })
+}
+
+/// Radius about the centre of mass that holds the body's solid colliders [m].
+pub(crate) fn radius(body: &RigidBody, colliders: &ColliderSet) -> f64 {
+    let com = Isometry3::from(-scalar::vector(body.local_center_of_mass()));
+    solids(body, colliders, true)
+        .map(|(_, collider)| reach(collider.shape(), &(com * place(collider))))
+        .fold(0.0, f64::max)
+}
+
+/// Largest distance of a point of the placed shape from the origin [m]; that of its box for
+/// shapes that have no wear contact.
+fn reach(shape: &dyn RapierShape, place: &Isometry3<f64>) -> f64 {
+    let farthest = |points: &mut dyn Iterator<Item = Point3<f64>>| {
+        points.map(|p| (place * p).coords.norm()).fold(0.0, f64::max)
+    };
+    match shape.as_typed_shape() {
+        TypedShape::Ball(ball) => place.translation.vector.norm() + scalar::wide(ball.radius),
+        TypedShape::ConvexPolyhedron(hull) => {
+            farthest(&mut hull.points().iter().map(|p| scalar::vector(*p).into()))
+        }
+        TypedShape::Compound(compound) => {
+            let part = |(pose, part): &(Pose, _)| {
+                let part: &rapier::geometry::SharedShape = part;
+                reach(part.as_ref(), &(place * scalar::pose(pose)))
+            };
+            compound.shapes().iter().map(part).fold(0.0, f64::max)
+        }
+        _ => {
+            let local = extent(&shape.compute_local_aabb());
+            let middle = nalgebra::center(&local.low, &local.high).coords;
+            farthest(&mut cuboid_vertices(&local.half()).into_iter().map(|corner| corner + middle))
+        }
+    }
+}
+
+/// Shape about the centre of mass.
+pub(crate) fn shape(body: &RigidBody, colliders: &ColliderSet) -> Result<Shape, Refusal> {
+    let com = Isometry3::from(-scalar::vector(body.local_center_of_mass()));
+    let mut pieces = Vec::new();
+    for (handle, collider) in solids(body, colliders, true) {
+        let refused = Refusal::Shape { collider: handle };
+        let place = com * place(collider);
+        add_pieces(&mut pieces, collider.shape(), &place).map_err(|_| refused)?;
+    }
+    Shape::union(pieces).map_err(|_| Refusal::Massless)
+}
+
+/// Mass and inertia about the centre of mass.
+pub(crate) fn inertia(body: &RigidBody) -> Result<Inertia, Refusal> {
+    let local = &body.mass_properties().local_mprops;
+    let mass = scalar::wide(local.mass());
+    let tensor = scalar::matrix(&local.reconstruct_inertia_matrix());
+    match mass > 0.0 && mass.is_finite() && tensor.iter().all(|x| x.is_finite()) {
+        true => Ok(Inertia { mass, tensor }),
+        false => Err(Refusal::Massless),
+    }
+}
+
+fn solids<'a>(
+    body: &'a RigidBody,
+    colliders: &'a ColliderSet,
+    solid_only: bool,
+) -> impl Iterator<Item = (ColliderHandle, &'a Collider)> {
+    let all = body.colliders().iter().filter_map(|&h| colliders.get(h).map(|c| (h, c)));
+    all.filter(move |(_, collider)| !solid_only || is_solid(collider))
+}
+
+fn is_solid(collider: &Collider) -> bool {
+    collider.is_enabled() && !collider.is_sensor()
+}
+
+fn place(collider: &Collider) -> Isometry3<f64> {
+    collider.position_wrt_parent().map_or_else(Isometry3::identity, scalar::pose)
+}
+
+/// A shape that has no wear contact.
+struct NoContact;
+
+impl From<ShapeError> for NoContact {
+    fn from(_: ShapeError) -> Self {
+        Self
+    }
+}
+
+fn add_pieces(
+    pieces: &mut Vec<Piece>,
+    shape: &dyn RapierShape,
+    place: &Isometry3<f64>,
+) -> Result<(), NoContact> {
+    match shape.as_typed_shape() {
+        TypedShape::Ball(ball) => {
+            let centre = Point3::from(place.translation.vector);
+            pieces.push(Piece::Ball(Ball { centre, radius: scalar::wide(ball.radius) }));
+        }
+        TypedShape::Cuboid(cuboid) => {
+            let corners = cuboid_vertices(&scalar::vector(cuboid.half_extents));
+            pieces.push(hull(corners.into_iter(), place)?);
+        }
+        TypedShape::ConvexPolyhedron(polyhedron) => {
+            let corners = polyhedron.points().iter().map(|p| scalar::vector(*p).into());
+            pieces.push(hull(corners, place)?);
+        }
+        TypedShape::Compound(compound) => {
+            for (pose, part) in compound.shapes() {
+                add_pieces(pieces, part.as_ref(), &(place * scalar::pose(pose)))?;
+            }
+        }
+        _ => return Err(NoContact),
+    }
+    Ok(())
+}
+
+/// The hull of corners placed about the body's centre of mass.
+fn hull(
+    corners: impl Iterator<Item = Point3<f64>>,
+    place: &Isometry3<f64>,
+) -> Result<Piece, ShapeError> {
+    let corners: Vec<Point3<f64>> = corners.map(|corner| place * corner).collect();
+    // The body's mass is Rapier's: the density only scales an inertia that is not used.
+    let (hull, _, shift): (Hull, Inertia, Vector3<f64>) = Hull::solid(&corners, 1.0)?;
+    Ok(Piece::Hull(hull.moved(&shift)))
+}

@@ -1,0 +1,175 @@
+//! Which bodies come near a wear surface, and which of them may be carried through the step on
+//! their own: Micro without this gate is catastrophic, because nothing else pushes back.
+
+use abrade::{Loads, State};
+use nalgebra::{Isometry3, Vector3};
+use rapier::dynamics::{LockedAxes, RigidBody, RigidBodyHandle};
+use rapier::geometry::ColliderSet;
+
+use crate::event::Refusal;
+use crate::obstacle::{Obstacles, interact};
+use crate::path::Extent;
+use crate::scalar;
+use crate::surface::{SurfaceId, WornCollider};
+use crate::tracked::Tracked;
+use crate::view::WorldView;
+
+/// Share of its radius by which a body is taken for larger than it is.
+const MARGIN: f64 = 1e-3;
+
+/// A surface where it lies in this step.
+pub(crate) struct Lie {
+    pub id: SurfaceId,
+    /// Its frame in the world.
+    pub pose: Isometry3<f64>,
+    /// Box around its nodes, in the world.
+    extent: Extent,
+}
+
+/// Where the surfaces lie; those whose proxy is gone or disabled are left out.
+pub(crate) fn lie(surfaces: &[WornCollider], colliders: &ColliderSet, lies: &mut Vec<Lie>) {
+    lies.clear();
+    for (id, worn) in surfaces.iter().enumerate() {
+        let Some(proxy) = colliders.get(worn.proxy).filter(|proxy| proxy.is_enabled()) else {
+            continue;
+        };
+        let pose = worn.pose(proxy);
+        let extent = worn.bounds.grown(worn.inflation).placed_by(&pose);
+        lies.push(Lie { id: SurfaceId(id), pose, extent });
+    }
+}
+
+/// A body's path over a step, before any contact.
+#[derive(Clone, Copy)]
+pub(crate) struct Course {
+    pub state: State,
+    /// Acceleration by gravity and forces [m/s2].
+    pub acceleration: Vector3<f64>,
+    /// Radius with its margin [m].
+    radius: f64,
+}
+
+impl Course {
+    /// The course of `rb` in the world.
+    pub fn of(rb: &RigidBody, tracked: &Tracked, gravity: &Vector3<f64>) -> Self {
+        let state = tracked.state(rb);
+        let mass = scalar::wide(rb.mass()).max(f64::MIN_POSITIVE);
+        let acceleration =
+            gravity * scalar::wide(rb.gravity_scale()) + scalar::vector(rb.user_force()) / mass;
+        let rounding = scalar::ROUNDING * state.position.coords.norm();
+        Self { state, acceleration, radius: tracked.radius * (1.0 + MARGIN) + rounding }
+    }
+
+    /// The course of a body of `radius` [m] from `state`, in the world.
+    pub fn from_state(state: State, acceleration: Vector3<f64>, radius: f64) -> Self {
+        Self { state, acceleration, radius: radius * (1.0 + MARGIN) }
+    }
+
+    /// Box around the body over `dt` [s], in the frame that `frame` places.
+    fn region(&self, frame: &Isometry3<f64>, dt: f64) -> Extent {
+        let state = self.state.seen_from(frame);
+        let acceleration = frame.inverse_transform_vector(&self.acceleration);
+        Extent::of_path(&state.position, &state.velocity, &acceleration, dt).grown(self.radius)
+    }
+
+    /// Box around wherever the body may be flung over `dt` [s], in `frame`: no contact with a
+    /// surface at rest makes it faster than its energy allows.
+    fn reach(&self, frame: &Isometry3<f64>, dt: f64) -> Extent {
+        let spin = self.state.spin.norm() * self.radius;
+        let speed = self.state.velocity.norm().hypot(spin) + self.acceleration.norm() * dt;
+        let centre = frame.inverse_transform_point(&self.state.position);
+        Extent { low: centre, high: centre }.grown(self.radius + speed * dt)
+    }
+
+    /// The surfaces that the body comes near in `dt` [s].
+    pub fn near(
+        &self,
+        lies: &[Lie],
+        surfaces: &[WornCollider],
+        dt: f64,
+        near: &mut Vec<SurfaceId>,
+    ) {
+        near.clear();
+        let world = self.region(&Isometry3::identity(), dt);
+        for lie in lies.iter().filter(|lie| lie.extent.meets(&world)) {
+            let worn = &surfaces[lie.id.0];
+            if self.region(&lie.pose, dt).meets(&worn.bounds.grown(worn.inflation)) {
+                near.push(lie.id);
+            }
+        }
+    }
+}
+
+/// Whether anything else lies in a body's way.
+pub(crate) struct Way<'a> {
+    pub body: RigidBodyHandle,
+    pub rb: &'a RigidBody,
+    pub colliders: &'a ColliderSet,
+    pub obstacles: &'a Obstacles,
+    /// The surface that the body meets, its frame and the box around its nodes.
+    pub frame: Isometry3<f64>,
+    pub bounds: Extent,
+}
+
+impl Way<'_> {
+    /// The obstacle on the body's `course` over `dt` [s], if there is one.
+    pub fn on_course(&self, course: &Course, dt: f64) -> Option<Refusal> {
+        self.within(&course.region(&self.frame, dt))
+    }
+
+    /// The obstacle that the body could reach in `dt` [s] whatever the contact does to it.
+    pub fn in_reach(&self, course: &Course, dt: f64) -> Option<Refusal> {
+        self.within(&course.reach(&self.frame, dt))
+    }
+
+    fn within(&self, region: &Extent) -> Option<Refusal> {
+        let region = region.above(&self.bounds);
+        let own = self.rb.colliders();
+        let found = self.obstacles.in_way(self.body, own, &region, &self.frame, self.colliders);
+        found.map(|collider| Refusal::Obstructed { collider })
+    }
+}
+
+/// True when Rapier would let the body feel the proxy.
+pub(crate) fn feels(rb: &RigidBody, worn: &WornCollider, colliders: &ColliderSet) -> bool {
+    let Some(proxy) = colliders.get(worn.proxy) else { return false };
+    let mut own = rb.colliders().iter().filter_map(|&handle| colliders.get(handle));
+    own.any(|mine| interact(mine, proxy))
+}
+
+/// Why a body may not be carried on its own, obstacles apart.
+pub(crate) fn bound(
+    world: &WorldView<'_>,
+    rb: &RigidBody,
+    body: RigidBodyHandle,
+    near: &[SurfaceId],
+    surfaces: &[WornCollider],
+) -> Option<Refusal> {
+    if world.jointed(body) {
+        return Some(Refusal::Jointed);
+    }
+    let locked = rb.locked_axes();
+    let rotations = LockedAxes::ROTATION_LOCKED;
+    if !(locked - rotations).is_empty() || !(locked.is_empty() || locked.contains(rotations)) {
+        return Some(Refusal::LockedAxes);
+    }
+    let moves = |id: &SurfaceId| surfaces[id.0].moves(world.bodies, world.colliders);
+    near.iter().any(moves).then_some(Refusal::SurfaceMoves)
+}
+
+/// What acts on the body beside the contact, in the frame that `frame` places.
+pub(crate) fn loads(rb: &RigidBody, gravity: &Vector3<f64>, frame: &Isometry3<f64>) -> Loads {
+    let local = |v: &Vector3<f64>| frame.inverse_transform_vector(v);
+    Loads {
+        gravity: local(&(gravity * scalar::wide(rb.gravity_scale()))),
+        force: local(&scalar::vector(rb.user_force())),
+        torque: local(&scalar::vector(rb.user_torque())),
+        linear_damping: scalar::wide(rb.linear_damping()),
+        angular_damping: scalar::wide(rb.angular_damping()),
+    }
+}
+
+/// True for bodies that can wear anything: dynamic, enabled, awake, no proxy of a soft body.
+pub(crate) fn takes_part(rb: &RigidBody) -> bool {
+    rb.is_dynamic() && rb.is_enabled() && !rb.is_sleeping() && !rb.is_soft_frame()
+}

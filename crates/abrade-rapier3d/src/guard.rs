@@ -1,0 +1,91 @@
+//! Our hooks for one step: pairs that wear has resolved are taken from Rapier, everything else
+//! goes to the embedder's hooks.
+
+use rapier::dynamics::RigidBodyHandle;
+use rapier::geometry::{ColliderHandle, SolverFlags};
+use rapier::pipeline::{ActiveHooks, ContactModificationContext, PairFilterContext, PhysicsHooks};
+
+/// Which pairs are taken; fixed over a step.
+#[derive(Default)]
+pub(crate) struct Taken {
+    /// Bodies resolved in this step, sorted.
+    bodies: Vec<(u32, u32)>,
+    /// Proxies with the hooks that the embedder had set on them, sorted by handle.
+    proxies: Vec<(ColliderHandle, ActiveHooks)>,
+}
+
+impl Taken {
+    pub fn clear(&mut self) {
+        self.bodies.clear();
+    }
+
+    pub fn add_proxy(&mut self, proxy: ColliderHandle, user_hooks: ActiveHooks) {
+        self.proxies.push((proxy, user_hooks));
+        self.proxies.sort_unstable_by_key(|(handle, _)| handle.into_raw_parts());
+    }
+
+    pub fn add_body(&mut self, body: RigidBodyHandle) {
+        let key = body.into_raw_parts();
+        if let Err(at) = self.bodies.binary_search(&key) {
+            self.bodies.insert(at, key);
+        }
+    }
+
+    fn has_body(&self, body: Option<RigidBodyHandle>) -> bool {
+        body.is_some_and(|body| self.bodies.binary_search(&body.into_raw_parts()).is_ok())
+    }
+
+    fn user_hooks(&self, proxy: ColliderHandle) -> Option<ActiveHooks> {
+        let key = proxy.into_raw_parts();
+        let at = self.proxies.binary_search_by_key(&key, |(handle, _)| handle.into_raw_parts());
+        at.ok().map(|at| self.proxies[at].1)
+    }
+}
+
+/// Hooks to pass to Rapier's step, between `begin_step` and `end_step`.
+pub struct WearGuard<'a> {
+    pub(crate) taken: &'a Taken,
+    pub(crate) user: &'a dyn PhysicsHooks,
+    pub(crate) dt: f64,
+}
+
+impl WearGuard<'_> {
+    /// Time that Rapier is to step by [s]: the embedder's, or less when a body's first exit ends
+    /// the step.
+    pub fn dt(&self) -> f64 {
+        self.dt
+    }
+
+    /// True when the embedder asked for `FILTER_CONTACT_PAIRS` on this pair. Proxies carry the
+    /// flag for us, which must not make the embedder's filter see pairs it did not ask for.
+    fn user_asked(&self, context: &PairFilterContext) -> bool {
+        let asked = |handle: ColliderHandle| {
+            let own = context.colliders.get(handle).map(|collider| collider.active_hooks());
+            let flags = self.taken.user_hooks(handle).or(own);
+            flags.is_some_and(|flags| flags.contains(ActiveHooks::FILTER_CONTACT_PAIRS))
+        };
+        asked(context.collider1) || asked(context.collider2)
+    }
+}
+
+impl PhysicsHooks for WearGuard<'_> {
+    fn filter_contact_pair(&self, context: &PairFilterContext) -> Option<SolverFlags> {
+        let proxy1 = self.taken.user_hooks(context.collider1).is_some();
+        let proxy2 = self.taken.user_hooks(context.collider2).is_some();
+        let taken = proxy1 && self.taken.has_body(context.rigid_body2)
+            || proxy2 && self.taken.has_body(context.rigid_body1);
+        match (taken, self.user_asked(context)) {
+            (true, _) => None,
+            (false, true) => self.user.filter_contact_pair(context),
+            (false, false) => Some(SolverFlags::default()),
+        }
+    }
+
+    fn filter_intersection_pair(&self, context: &PairFilterContext) -> bool {
+        self.user.filter_intersection_pair(context)
+    }
+
+    fn modify_solver_contacts(&self, context: &mut ContactModificationContext) {
+        self.user.modify_solver_contacts(context);
+    }
+}

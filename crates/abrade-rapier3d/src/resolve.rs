@@ -1,0 +1,148 @@
+//! Resolving one body near a wear surface: through the gate and the Micro resolver, or left to
+//! Rapier with a reason. Other resolvers take their place here, between the two.
+
+use abrade::{PhysicsError, Until};
+use nalgebra::Vector3;
+use rapier::dynamics::RigidBodyHandle;
+
+use crate::error::WearError;
+use crate::event::{Refusal, WearEvent};
+use crate::gate::{self, Course, Way};
+use crate::micro::Errand;
+use crate::observer::{Relay, WearObserver};
+use crate::shadow;
+use crate::surface::SurfaceId;
+use crate::tracked::{Known, Live, Tracked};
+use crate::view::WorldView;
+use crate::world::{Integrated, WearWorld};
+
+/// Why a body was left to Rapier.
+enum Left {
+    Refused(Refusal),
+    Failed(PhysicsError),
+}
+
+impl From<Refusal> for Left {
+    fn from(refusal: Refusal) -> Self {
+        Self::Refused(refusal)
+    }
+}
+
+impl From<PhysicsError> for Left {
+    fn from(error: PhysicsError) -> Self {
+        Self::Failed(error)
+    }
+}
+
+impl WearWorld {
+    /// Carries one body through the step, or leaves it to Rapier and says why.
+    pub(crate) fn resolve(
+        &mut self,
+        handle: RigidBodyHandle,
+        world: &WorldView<'_>,
+        until: Until,
+        observer: &mut dyn WearObserver,
+    ) {
+        let tracked = Tracked::slot(&mut self.bodies, handle);
+        let Some(&surface) = tracked.near.first() else { return };
+        let exact = tracked.shadow.is_some();
+        let Err(left) = self.carry(handle, surface, world, until, observer) else { return };
+        let tracked = Tracked::slot(&mut self.bodies, handle);
+        tracked.shadow = None;
+        self.closed += tracked.end(&mut self.events);
+        match left {
+            // Rapier's contacts overlap: only a state that was given exactly is an error.
+            Left::Failed(PhysicsError::StartsInside { depth }) if !exact => {
+                self.refuse(handle, surface, Refusal::Inside { depth });
+            }
+            Left::Refused(reason) => self.refuse(handle, surface, reason),
+            Left::Failed(error) => self.fail(handle, surface, error),
+        }
+    }
+
+    fn refuse(&mut self, body: RigidBodyHandle, surface: SurfaceId, reason: Refusal) {
+        self.counters.refused += 1;
+        self.events.push(WearEvent::NotResolved { body, surface, reason });
+    }
+
+    fn fail(&mut self, body: RigidBodyHandle, surface: SurfaceId, error: PhysicsError) {
+        self.counters.refused += 1;
+        let source = error.clone();
+        self.events.push(WearEvent::Failed { body, surface, error });
+        self.current.failure.get_or_insert(WearError::Physics { body, surface, source });
+    }
+
+    /// Gate and Micro.
+    fn carry(
+        &mut self,
+        handle: RigidBodyHandle,
+        surface: SurfaceId,
+        world: &WorldView<'_>,
+        until: Until,
+        observer: &mut dyn WearObserver,
+    ) -> Result<(), Left> {
+        let dt = self.current.dt;
+        let tracked = Tracked::slot(&mut self.bodies, handle);
+        let Some(rb) = world.bodies.get(handle) else { return Ok(()) };
+        if let Some(refusal) = gate::bound(world, rb, handle, &tracked.near, &self.surfaces) {
+            return Err(refusal.into());
+        }
+        tracked.derive(rb, world.colliders)?;
+        // An encounter goes on in the frame it began in.
+        if !tracked.knows_surfaces(&self.lies) {
+            self.closed += tracked.end(&mut self.events);
+        }
+        let anchor = tracked.live.as_ref().map_or(surface, |live| live.surfaces[0]);
+        let Some(lie) = self.lies.iter().find(|lie| lie.id == anchor) else { return Ok(()) };
+        let (frame, bounds) = (lie.pose, self.surfaces[anchor.0].bounds);
+        let surfaces = &self.surfaces;
+        let is_proxy = |collider| surfaces.iter().any(|worn| worn.proxy == collider);
+        self.obstacles.collect(world, dt, is_proxy);
+        let (colliders, obstacles) = (world.colliders, &self.obstacles);
+        let way = Way { body: handle, rb, colliders, obstacles, frame, bounds };
+        let gravity: Vector3<f64> = crate::scalar::vector(world.gravity);
+        if let Some(refusal) = way.on_course(&Course::of(rb, tracked, &gravity), dt) {
+            return Err(refusal.into());
+        }
+        let state = shadow::read(rb, tracked.shadow.as_ref(), &frame);
+        let Known::Ready(body) = &mut tracked.known else { return Ok(()) };
+        body.state = state;
+        if tracked.live.is_none() {
+            let settings = self.settings.encounter();
+            tracked.live = Some(Live::new(body, &tracked.near, &self.surfaces, settings)?);
+        }
+        let Some(live) = &mut tracked.live else { return Ok(()) };
+        let loads = gate::loads(rb, &gravity, &frame);
+        let errand = Errand { way, loads, dt, until };
+        let mut relay = Relay { observer, body: handle, frame, began: 0.0 };
+        let before: Vec<f64> = displaced(live, &self.surfaces).collect();
+        let advance = live.carry(body, &mut self.surfaces, &self.lies, &errand, &mut relay)?;
+        let after = displaced(live, &self.surfaces);
+        let worn: Vec<(SurfaceId, f64)> = std::iter::zip(live.surfaces.iter().copied(), before)
+            .zip(after)
+            .map(|((id, before), after)| (id, after - before))
+            .collect();
+        live.book(handle, &advance, &worn, &frame, &mut self.events);
+        self.counters.micro += 1;
+        self.counters.steps += advance.steps;
+        self.counters.node_evaluations += advance.node_evaluations;
+        self.integrated.push(Integrated { body: handle, end: body.state, frame });
+        if advance.exited && until == Until::FirstExit {
+            self.current.dt = advance.time;
+            self.current.exited = Some(handle);
+        }
+        // What follows an exit is another encounter, with a first exit of its own.
+        if advance.exited && !live.encounter.in_contact() {
+            self.closed += tracked.end(&mut self.events);
+        }
+        Ok(())
+    }
+}
+
+/// Volume displaced so far on each surface of the encounter [m3].
+fn displaced<'a>(
+    live: &'a Live,
+    surfaces: &'a [crate::surface::WornCollider],
+) -> impl Iterator<Item = f64> + 'a {
+    live.surfaces.iter().map(|id| surfaces[id.0].displaced())
+}

@@ -1,0 +1,175 @@
+//! One step of the embedder's world: choose, resolve, steer, engine, settle.
+
+use abrade::Until;
+use nalgebra::Vector3;
+use rapier::dynamics::{RigidBodyHandle, RigidBodySet};
+use rapier::geometry::ColliderSet;
+use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
+
+use crate::error::WearError;
+use crate::gate::{self, Course};
+use crate::guard::WearGuard;
+use crate::observer::WearObserver;
+use crate::settings::StepReport;
+use crate::tracked::Tracked;
+use crate::view::WorldView;
+use crate::world::{Current, WearWorld};
+use crate::{scalar, steer};
+
+impl WearWorld {
+    /// The whole step of `world`: as `world.step_with_events(hooks, events)`, with wear.
+    ///
+    /// # Errors
+    /// A contact left the reach of the model. The step was taken all the same, with that body
+    /// left to Rapier, so that an embedder may go on.
+    pub fn step(
+        &mut self,
+        world: &mut PhysicsWorld,
+        hooks: &dyn PhysicsHooks,
+        events: &dyn EventHandler,
+    ) -> Result<StepReport, WearError> {
+        self.step_observed(world, hooks, events, &mut ())
+    }
+
+    /// As [`WearWorld::step`], showing every contact step to `observer`.
+    ///
+    /// # Errors
+    /// As [`WearWorld::step`].
+    pub fn step_observed(
+        &mut self,
+        world: &mut PhysicsWorld,
+        hooks: &dyn PhysicsHooks,
+        events: &dyn EventHandler,
+        observer: &mut dyn WearObserver,
+    ) -> Result<StepReport, WearError> {
+        let asked = world.integration_parameters.dt;
+        let guard = self.begin_step_observed(WorldView::of(world), hooks, observer);
+        world.integration_parameters.dt = scalar::narrow(guard.dt());
+        world.step_with_events(&guard, events);
+        world.integration_parameters.dt = asked;
+        self.end_step(&mut world.bodies, &mut world.colliders)
+    }
+
+    /// Chooses, resolves and steers. The guard goes into Rapier's step, which must be by
+    /// [`WearGuard::dt`], and [`WearWorld::end_step`] must follow.
+    pub fn begin_step<'a>(
+        &'a mut self,
+        world: WorldView<'_>,
+        hooks: &'a dyn PhysicsHooks,
+    ) -> WearGuard<'a> {
+        self.begin_step_observed(world, hooks, &mut ())
+    }
+
+    /// As [`WearWorld::begin_step`], showing every contact step to `observer`.
+    pub fn begin_step_observed<'a>(
+        &'a mut self,
+        mut world: WorldView<'_>,
+        hooks: &'a dyn PhysicsHooks,
+        observer: &mut dyn WearObserver,
+    ) -> WearGuard<'a> {
+        self.open(scalar::wide(world.parameters.dt));
+        let gravity = scalar::vector(world.gravity);
+        if !self.surfaces.is_empty() && self.current.dt > 0.0 {
+            self.choose(&mut world, &gravity);
+            let single = self.single_registered();
+            self.candidates
+                .sort_by_key(|&handle| (Some(handle) != single, handle.into_raw_parts()));
+            for at in 0..self.candidates.len() {
+                let until = match Some(self.candidates[at]) == single {
+                    true => self.settings.until,
+                    false => Until::Duration,
+                };
+                self.resolve(self.candidates[at], &world, until, observer);
+            }
+            self.steer(&mut world, &gravity);
+        }
+        WearGuard { taken: &self.taken, user: hooks, dt: self.current.dt }
+    }
+
+    /// Sets velocities so that Rapier lands where the integration ended, and takes the pairs.
+    fn steer(&mut self, world: &mut WorldView<'_>, gravity: &Vector3<f64>) {
+        for integrated in self.integrated.drain(..) {
+            let Some(rb) = world.bodies.get_mut(integrated.body) else { continue };
+            let dt = self.current.dt;
+            self.taken.add_body(integrated.body);
+            self.steered.push(steer::steer(integrated, rb, gravity, world.parameters, dt));
+        }
+    }
+
+    /// Restores what steering changed, after Rapier's step.
+    ///
+    /// # Errors
+    /// A contact left the reach of the model in this step; its body was left to Rapier.
+    pub fn end_step(
+        &mut self,
+        bodies: &mut RigidBodySet,
+        colliders: &mut ColliderSet,
+    ) -> Result<StepReport, WearError> {
+        for steered in self.steered.drain(..) {
+            let body = steered.integrated.body;
+            let tracked = Tracked::slot(&mut self.bodies, body);
+            let Some(rb) = bodies.get_mut(body) else { continue };
+            tracked.shadow = steered.settle(rb);
+            steer::carry_colliders(rb, colliders);
+        }
+        let Current { dt, exited, failure } = std::mem::take(&mut self.current);
+        match failure {
+            Some(error) => Err(error),
+            None => Ok(StepReport { dt, exited }),
+        }
+    }
+
+    fn open(&mut self, dt: f64) {
+        self.current = Current { dt, ..Current::default() };
+        self.events.clear();
+        self.integrated.clear();
+        self.steered.clear();
+        self.candidates.clear();
+        self.taken.clear();
+        self.obstacles.clear();
+    }
+
+    /// The one body whose first exit may end a step.
+    fn single_registered(&self) -> Option<RigidBodyHandle> {
+        let mut registered = self.bodies.iter().flatten().filter(|tracked| tracked.registered);
+        match (registered.next(), registered.next()) {
+            (Some(tracked), None) => Some(tracked.handle),
+            _ => None,
+        }
+    }
+
+    /// Finds the bodies near a surface; ends encounters of those that are not.
+    fn choose(&mut self, world: &mut WorldView<'_>, gravity: &Vector3<f64>) {
+        gate::lie(&self.surfaces, world.colliders, &mut self.lies);
+        let mut stale = std::mem::take(&mut self.stale);
+        stale.clear();
+        for (handle, rb) in world.bodies.iter().filter(|(_, rb)| gate::takes_part(rb)) {
+            let tracked = Tracked::slot(&mut self.bodies, handle);
+            if tracked.is_stale(rb, world.colliders) {
+                stale.push(handle);
+            }
+        }
+        for &handle in &stale {
+            let Some(rb) = world.bodies.get_mut(handle) else { continue };
+            // Colliders and extra masses that are new count from Rapier's next step on.
+            rb.recompute_mass_properties_from_colliders(world.colliders);
+            let tracked = Tracked::slot(&mut self.bodies, handle);
+            tracked.refresh(rb, world.colliders);
+        }
+        self.stale = stale;
+        for (handle, rb) in world.bodies.iter().filter(|(_, rb)| gate::takes_part(rb)) {
+            let tracked = Tracked::slot(&mut self.bodies, handle);
+            let lost = tracked.drop_lost_shadow(rb);
+            let course = Course::of(rb, tracked, gravity);
+            course.near(&self.lies, &self.surfaces, self.current.dt, &mut tracked.near);
+            let surfaces = &self.surfaces;
+            tracked.near.retain(|id| gate::feels(rb, &surfaces[id.0], world.colliders));
+            if lost || tracked.near.is_empty() {
+                self.closed += tracked.end(&mut self.events);
+            }
+            if !tracked.near.is_empty() {
+                self.candidates.push(handle);
+            }
+        }
+    }
+}

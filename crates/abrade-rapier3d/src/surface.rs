@@ -1,0 +1,74 @@
+//! A wear surface on its proxy collider, and where it lies.
+
+use std::fmt;
+
+use abrade::{ElasticLaw, Surface};
+use nalgebra::{Isometry3, Point3};
+use rapier::dynamics::RigidBodySet;
+use rapier::geometry::{Collider, ColliderHandle, ColliderSet};
+use rapier::math::Pose;
+
+use crate::path::Extent;
+use crate::scalar;
+
+/// Names a wear surface of a [`WearWorld`](crate::WearWorld).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SurfaceId(pub(crate) usize);
+
+impl fmt::Display for SurfaceId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.0)
+    }
+}
+
+/// A surface and the collider that stands for it.
+pub(crate) struct WornCollider {
+    pub surface: Surface,
+    pub proxy: ColliderHandle,
+    /// The surface's frame in the proxy's.
+    offset: Isometry3<f64>,
+    /// The exact frame in the world, for as long as the proxy has this pose.
+    exact: Option<(Pose, Isometry3<f64>)>,
+    /// Box around the undeformed nodes, in the surface's frame.
+    pub bounds: Extent,
+    /// What the elastic law inflates bodies by [m].
+    pub inflation: f64,
+}
+
+impl WornCollider {
+    pub fn new(surface: Surface, proxy: ColliderHandle, offset: Isometry3<f64>) -> Self {
+        let [low, high]: [Point3<f64>; 2] = surface.bounds();
+        let inflation = match surface.laws().elastic {
+            ElasticLaw::HertzNodes { node_radius, .. } => node_radius,
+            ElasticLaw::Foundation { .. } | ElasticLaw::Rigid => 0.0,
+        };
+        let bounds = Extent { low, high };
+        Self { surface, proxy, offset, exact: None, bounds, inflation }
+    }
+
+    /// Lays the surface's frame where the proxy's pose cannot say exactly.
+    pub fn place(&mut self, proxy: &Collider, pose: Isometry3<f64>) {
+        self.exact = Some((*proxy.position(), pose));
+    }
+
+    /// The surface's frame in the world.
+    pub fn pose(&self, proxy: &Collider) -> Isometry3<f64> {
+        match &self.exact {
+            Some((seen, exact)) if seen == proxy.position() => *exact,
+            _ => scalar::pose(proxy.position()) * self.offset,
+        }
+    }
+
+    /// True when the proxy's body moves, or a contact could move it.
+    pub fn moves(&self, bodies: &RigidBodySet, colliders: &ColliderSet) -> bool {
+        let parent = colliders.get(self.proxy).and_then(Collider::parent);
+        let Some(body) = parent.and_then(|handle| bodies.get(handle)) else { return false };
+        body.is_dynamic() || body.is_moving() || body.next_position() != body.position()
+    }
+
+    /// Volume displaced so far [m3].
+    pub fn displaced(&self) -> f64 {
+        let worn = self.surface.worn();
+        worn.normal + worn.lateral + worn.chip
+    }
+}

@@ -1,0 +1,163 @@
+//! What is known of one rigid body from step to step.
+
+use abrade::{Body, Encounter, Ledger, State};
+use nalgebra::{Isometry3, Point3, Vector3};
+use rapier::dynamics::{RigidBody, RigidBodyHandle};
+use rapier::geometry::ColliderSet;
+use rapier::math::Vector;
+
+use crate::derive::{self, Print};
+use crate::event::{Refusal, WearEvent};
+use crate::gate::Lie;
+use crate::shadow::{self, Shadow};
+use crate::surface::SurfaceId;
+
+/// A rigid body and the core's view of it.
+pub(crate) struct Tracked {
+    pub handle: RigidBodyHandle,
+    /// Registered by the embedder: shape and inertia are the embedder's, whatever the colliders.
+    pub registered: bool,
+    pub known: Known,
+    /// Radius that holds the body about its centre of mass [m].
+    pub radius: f64,
+    pub shadow: Option<Shadow>,
+    pub live: Option<Live>,
+    /// Surfaces that it comes near in the step under way.
+    pub near: Vec<SurfaceId>,
+    prints: Vec<Print>,
+    com: Option<Vector>,
+}
+
+/// The core's body, as far as it was needed.
+pub(crate) enum Known {
+    /// Not asked for yet.
+    Unseen,
+    /// There is none.
+    Refused(Refusal),
+    /// Its state is set anew for every step.
+    Ready(Body),
+}
+
+/// A running encounter.
+pub(crate) struct Live {
+    pub encounter: Encounter,
+    /// The surfaces it was made with, in order.
+    pub surfaces: Vec<SurfaceId>,
+    /// The contact that is open: totals since it began.
+    pub contact: Option<Contact>,
+}
+
+/// Totals of a contact.
+#[derive(Default)]
+pub(crate) struct Contact {
+    /// Impulse on the body, in the world [N s].
+    pub impulse: Vector3<f64>,
+    /// Time in contact [s].
+    pub time: f64,
+    /// The surfaces worn since it began, with the volume displaced [m3].
+    pub surfaces: Vec<(SurfaceId, f64)>,
+}
+
+impl Tracked {
+    fn new(handle: RigidBodyHandle) -> Self {
+        Self {
+            handle,
+            registered: false,
+            known: Known::Unseen,
+            radius: 0.0,
+            shadow: None,
+            live: None,
+            near: Vec::new(),
+            prints: Vec::new(),
+            com: None,
+        }
+    }
+
+    /// The entry of `handle`; a body that reuses an index starts anew.
+    pub fn slot(bodies: &mut Vec<Option<Self>>, handle: RigidBodyHandle) -> &mut Self {
+        let index = handle.into_raw_parts().0 as usize;
+        if bodies.len() <= index {
+            bodies.resize_with(index + 1, || None);
+        }
+        let slot = &mut bodies[index];
+        if slot.as_ref().is_some_and(|tracked| tracked.handle != handle) {
+            *slot = None;
+        }
+        slot.get_or_insert_with(|| Self::new(handle))
+    }
+
+    /// Takes the embedder's shape, inertia and lock in place of the colliders'.
+    pub fn register(&mut self, body: Body) {
+        self.registered = true;
+        self.radius = body.shape.bounding_radius();
+        self.known = Known::Ready(body);
+    }
+
+    /// True when colliders or the centre of mass have changed since the body was derived.
+    pub fn is_stale(&self, rb: &RigidBody, colliders: &ColliderSet) -> bool {
+        !self.registered
+            && !(self.com == Some(rb.local_center_of_mass())
+                && derive::prints(rb, colliders).eq(self.prints.iter().copied()))
+    }
+
+    /// Forgets what was derived.
+    pub fn refresh(&mut self, rb: &RigidBody, colliders: &ColliderSet) {
+        self.com = Some(rb.local_center_of_mass());
+        self.prints.clear();
+        self.prints.extend(derive::prints(rb, colliders));
+        self.radius = derive::radius(rb, colliders);
+        self.known = Known::Unseen;
+        self.shadow = None;
+    }
+
+    /// Drops a shadow that no longer holds. True when the body is not where it was left: an
+    /// encounter has then lost the place of its springs.
+    pub fn drop_lost_shadow(&mut self, rb: &RigidBody) -> bool {
+        self.shadow = self.shadow.filter(|shadow| shadow.holds(rb));
+        self.shadow.is_none()
+    }
+
+    /// Derives the core's body unless that was done.
+    pub fn derive(&mut self, rb: &RigidBody, colliders: &ColliderSet) -> Result<(), Refusal> {
+        if matches!(self.known, Known::Unseen) {
+            let inertia = derive::inertia(rb);
+            self.known = match derive::shape(rb, colliders).and_then(|s| Ok((s, inertia?))) {
+                Ok((shape, inertia)) => {
+                    let state = State::at(Point3::origin());
+                    Known::Ready(Body { shape, inertia, state, rotation_locked: false })
+                }
+                Err(refusal) => Known::Refused(refusal),
+            };
+        }
+        match &mut self.known {
+            Known::Ready(body) if !self.registered => {
+                body.inertia = derive::inertia(rb)?;
+                body.rotation_locked = rb.is_rotation_locked() == [true; 3];
+                Ok(())
+            }
+            Known::Ready(_) | Known::Unseen => Ok(()),
+            Known::Refused(refusal) => Err(*refusal),
+        }
+    }
+
+    /// True when the running encounter, if there is one, was made with all the surfaces near,
+    /// and all of its own still lie somewhere.
+    pub fn knows_surfaces(&self, lies: &[Lie]) -> bool {
+        self.live.as_ref().is_some_and(|live| {
+            self.near.iter().all(|id| live.surfaces.contains(id))
+                && live.surfaces.iter().all(|id| lies.iter().any(|lie| lie.id == *id))
+        })
+    }
+
+    /// Ends the running encounter and returns its ledger.
+    pub fn end(&mut self, events: &mut Vec<WearEvent>) -> Ledger {
+        let Some(mut live) = self.live.take() else { return Ledger::default() };
+        live.end_contact(self.handle, events);
+        *live.encounter.ledger()
+    }
+
+    /// State in the world, exact where known.
+    pub fn state(&self, rb: &RigidBody) -> State {
+        shadow::read(rb, self.shadow.as_ref(), &Isometry3::identity())
+    }
+}

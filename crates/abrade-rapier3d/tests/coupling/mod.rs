@@ -1,0 +1,8 @@
+//! The plug-in against Rapier: gate, hooks, and independence of the embedder's step and origin.
+//! Both precisions run the same tests.
+
+mod gate;
+mod hooks;
+mod independence;
+mod rig;
+mod shadow;
