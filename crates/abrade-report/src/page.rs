@@ -188,6 +188,7 @@ fn number(value: f64) -> String {
         false => {
             let text = format!("{value:.4e}");
             let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
+            let digits = digits.trim_end_matches('0').trim_end_matches('.');
             format!("{digits}&nbsp;×&nbsp;10<sup>{power}</sup>")
         }
     };

@@ -49,7 +49,7 @@ fn the_picture_is_inside() {
 /// whole numbers would show 5 for 5000.
 #[test]
 fn numbers_are_short_and_exact() {
-    assert_eq!(number(1.5e-12), "1.5000&nbsp;×&nbsp;10<sup>−12</sup>");
+    assert_eq!(number(1.5e-12), "1.5&nbsp;×&nbsp;10<sup>−12</sup>");
     assert_eq!(number(50_000.0), "50000");
     assert_eq!(number(-0.0125), "−0.0125");
     assert_eq!(number(0.0), "0");

@@ -114,9 +114,10 @@ fn point_at(
     let align = if leftward { Align::Right } else { Align::Left };
     let at = [x + if leftward { -13.0 } else { 13.0 }, y];
     // A light rim keeps the name readable on every colour.
-    for (dx, dy) in [(-1.5, 0.0), (1.5, 0.0), (0.0, -1.5), (0.0, 1.5), (1.0, 1.0), (-1.0, -1.0)] {
+    for turn in 0..12 {
+        let (dy, dx) = (f64::from(turn) * std::f64::consts::PI / 6.0).sin_cos();
         let rim = Text { colour: WHITE, align, ..Text::default() };
-        canvas.text([at[0] + dx, at[1] + dy], mark.label, rim);
+        canvas.text([at[0] + 2.5 * dx, at[1] + 2.5 * dy], mark.label, rim);
     }
     canvas.text(at, mark.label, Text { align, ..Text::default() });
     Ok(())

@@ -4,8 +4,7 @@
 //! way times the mean of its slope and the point's (the trapezoid rule, exact on planes and on
 //! bowls); a point takes the weighted mean. On a close-packed lattice the weight of a node is
 //! zero at its neighbours, so the field meets every node's own depth and is continuous between
-//! them. Where an irregular surface leaves a hole, a second, faint cone of twice the reach fills
-//! it.
+//! them. Where an irregular surface leaves a hole, a second, faint and wider cone fills it.
 
 use super::slope::slopes;
 use super::view::Seen;
@@ -22,7 +21,7 @@ pub(super) struct Grid {
 }
 
 /// Reach of the faint cone, in node distances.
-pub(super) const REACH: f64 = 2.0;
+pub(super) const REACH: f64 = 1.5;
 /// Weight of the faint cone: too little to be seen where the first has any.
 const FAINT: f32 = 1e-6;
 /// Nodes closer than this many points need no slope: the steps between them cannot be seen.

@@ -76,6 +76,7 @@ fn paint(canvas: &mut Canvas, rect: &Rect, profile: &[f64], largest: f64, stretc
     let per_pixel = stretch.pixel / SCALE as f64;
     let air = AIR * SCALE as f64;
     let line: Vec<f64> = profile.iter().map(|depth| depth / per_pixel).collect();
+    let bands: Vec<_> = (0..line.len()).map(|column| band(&line, column)).collect();
     canvas.paint(rect, |column, row| {
         let here = row as f64 + 0.5 - air;
         let away = here - line[column];
@@ -84,16 +85,29 @@ fn paint(canvas: &mut Canvas, rect: &Rect, profile: &[f64], largest: f64, stretc
             (false, true) => colour::of_share(here * per_pixel / largest),
             (false, false) => BODY,
         };
+        if away.is_nan() || !(bands[column].0..=bands[column].1).contains(&here) {
+            return (!away.is_nan()).then_some(ground);
+        }
         let cover = LINE * SCALE as f64 / 2.0 + 0.5 - distance(&line, column, here);
-        (!away.is_nan()).then(|| blend(ground, INK, cover))
+        Some(blend(ground, INK, cover))
     });
+}
+
+/// Columns on each side that may be nearer to a point than its own.
+const REACH: usize = LINE as usize * SCALE;
+
+/// The heights between which the line can be near a column [sheet pixels].
+fn band(line: &[f64], column: usize) -> (f64, f64) {
+    let near = &line[column.saturating_sub(REACH)..(column + REACH + 1).min(line.len())];
+    let low = near.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = near.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    (low - REACH as f64, high + REACH as f64)
 }
 
 /// Distance of a point in the middle of `column`, `down` below the surface, from a line with one
 /// height per column [sheet pixels].
 fn distance(line: &[f64], column: usize, down: f64) -> f64 {
-    let reach = LINE as usize * SCALE;
-    let columns = column.saturating_sub(reach)..(column + reach).min(line.len() - 1);
+    let columns = column.saturating_sub(REACH)..(column + REACH).min(line.len() - 1);
     let near = columns.map(|i| {
         let (x, y, rise) = (column as f64 - i as f64, down - line[i], line[i + 1] - line[i]);
         let along = ((x + y * rise) / (1.0 + rise * rise)).clamp(0.0, 1.0);
