@@ -27,15 +27,25 @@ pub(crate) fn syntax(patched: &Patched, error: &SpannedError) -> Problem {
     let text = &patched.text;
     let at = byte_at(text, &error.span.start);
     let end = byte_at(text, &error.span.end).max(next_char(text, at));
-    let before = text[..at].trim_end();
-    let after_number = before.ends_with(|c: char| c.is_ascii_digit() || c == '.');
-    let unit = text[at..].starts_with(|c: char| c.is_alphabetic());
-    let quote = after_number && unit && error.code == Error::ExpectedComma;
     Problem {
         message: "the scene is not RON".into(),
         marks: vec![patched.mark(at..end, lowered(&error.code.to_string()))],
-        help: quote.then(|| "a number with a unit is quoted, as in \"45 deg\"".into()),
+        help: syntax_help(text, at, &error.code).map(str::to_owned),
     }
+}
+
+/// What was probably meant where a comma was expected.
+fn syntax_help(text: &str, at: usize, code: &Error) -> Option<&'static str> {
+    if *code != Error::ExpectedComma {
+        return None;
+    }
+    let (before, after) = (text[..at].trim_end(), &text[at..]);
+    let number = before.ends_with(|c: char| c.is_ascii_digit() || c == '.');
+    if number && after.starts_with(char::is_alphabetic) {
+        return Some("a number with a unit is quoted, as in \"45 deg\"");
+    }
+    let empty = after.strip_prefix('(').is_some_and(|rest| rest.trim_start().starts_with(')'));
+    empty.then_some("this variant has no fields and is written without parentheses")
 }
 
 /// A value that does not fit its place at `path`.

@@ -12,6 +12,9 @@ use thiserror::Error;
 use crate::clump::{self, ClumpError, ClumpFile, Format, Given, Source};
 use crate::scene::{ClumpInertia, SceneShape};
 
+/// Hull coordinates [m] beyond which volumes cannot be held in a number.
+const LARGEST_COORDINATE: f64 = 1e60;
+
 /// A body's geometry and inertia.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solid {
@@ -82,11 +85,17 @@ pub(crate) fn solid(
         }
         (None, None, None) => return Err(SolidTrouble::NoMass),
     };
-    let sound = |value: f64| value.is_finite() && value > 0.0;
-    if !(sound(inertia.mass) && inertia.tensor.symmetric_eigenvalues().iter().all(|&m| sound(m))) {
+    if !is_sound(&inertia) {
         return Err(SolidTrouble::Weight { mass: inertia.mass });
     }
     Ok((Solid { shape: blank.shape, inertia, centre: blank.centre }, blank.note))
+}
+
+/// True when mass and principal moments are finite and above zero.
+fn is_sound(inertia: &Inertia) -> bool {
+    let finite = inertia.mass.is_finite() && inertia.tensor.iter().all(|x| x.is_finite());
+    let moments = || inertia.tensor.symmetric_eigenvalues();
+    inertia.mass > 0.0 && finite && moments().iter().all(|&moment| moment > 0.0)
 }
 
 fn blank(shape: &SceneShape, density: Option<f64>, folder: &Path) -> Result<Blank, SolidTrouble> {
@@ -127,6 +136,12 @@ fn blank(shape: &SceneShape, density: Option<f64>, folder: &Path) -> Result<Blan
 }
 
 fn hull(points: &[Point3<f64>]) -> Result<Blank, SolidTrouble> {
+    let too_large = |x: &f64| !(x.abs() < LARGEST_COORDINATE);
+    if let Some(&value) = points.iter().flat_map(|point| point.iter()).find(|x| too_large(x)) {
+        let allowed = format!("of a size below {LARGEST_COORDINATE:e} m");
+        let field = "points";
+        return Err(SolidTrouble::Parameter(ParameterError { field, value, allowed }));
+    }
     let (hull, unit, centre) = Hull::solid(points, 1.0)?;
     Ok(Blank { shape: Shape::hull(hull), unit, centre, own: None, note: None })
 }

@@ -14,7 +14,7 @@ impl Checker<'_> {
         self.ranges(
             &path,
             [
-                ParameterError::within("accuracy", run.accuracy, 1e-9, 0.5),
+                ParameterError::within("accuracy", run.accuracy, 1e-6, 0.5),
                 ParameterError::positive("step", run.step),
             ],
         );

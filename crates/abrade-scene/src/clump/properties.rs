@@ -123,8 +123,11 @@ impl Report {
     }
 }
 
-/// Principal moments in rising order.
-fn moments(tensor: &Matrix3<f64>) -> Vector3<f64> {
+/// Principal moments in rising order; not numbers if the tensor is not finite.
+pub(super) fn moments(tensor: &Matrix3<f64>) -> Vector3<f64> {
+    if !tensor.iter().all(|x| x.is_finite()) {
+        return Vector3::repeat(f64::NAN);
+    }
     let mut moments: [f64; 3] = tensor.symmetric_eigenvalues().into();
     moments.sort_by(f64::total_cmp);
     moments.into()

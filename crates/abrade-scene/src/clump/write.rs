@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use abrade::UnionInertia;
 use nalgebra::Vector3;
 
+use super::properties::moments;
 use super::{ClumpFile, Format};
 
 /// The text of `clump` in `format`, of density `density` [kg/m3]. An MClump folder is several
@@ -35,8 +36,7 @@ fn kratos(clump: &ClumpFile, union: &UnionInertia) -> String {
     let c = union.centre;
     let reach = |ball: &abrade::Ball| (ball.centre - c).norm() + ball.radius;
     let size = 2.0 * clump.spheres.iter().map(reach).fold(0.0, f64::max);
-    let mut moments: [f64; 3] = (union.tensor / union.volume).symmetric_eigenvalues().into();
-    moments.sort_by(f64::total_cmp);
+    let moments = moments(&(union.tensor / union.volume));
     format!(
         "Name\ncluster\n\n\
          Begin centers_and_radii\n{spheres}End centers_and_radii\n\n\

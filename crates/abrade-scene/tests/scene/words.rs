@@ -1,0 +1,176 @@
+//! The words of a scene mean what they say: units, defaults, alternatives.
+
+use abrade::{ElasticLaw, FlowLaw, HertzConvention, Lateral, Polyhedron, Removal};
+use abrade_scene::load_text;
+use abrade_scene::scene::*;
+
+use super::{checked, refusal, set};
+
+#[test]
+fn the_scene_of_the_interface_page_is_read() {
+    let scene = checked(&[]).scene;
+    assert_eq!(scene.materials["plate"].hardness, 6.6e9);
+    assert_eq!(
+        scene.surfaces["plate"].geometry,
+        Geometry::HexStrip {
+            length: 30.0 * 1e-3,
+            width: 12.0 * 1e-3,
+            pitch: Some(0.15 * 1e-3),
+            nodes: None,
+            rest_area: None
+        }
+    );
+    let body = &scene.bodies["ball"];
+    assert_eq!(body.shape, SceneShape::Ball { radius: 3.0 * 1e-3 });
+    assert_eq!(
+        body.motion,
+        Motion::Impact {
+            speed: 35.0,
+            angle: 45.0 * std::f64::consts::PI / 180.0,
+            azimuth: 0.0,
+            spin: [0.0; 3]
+        }
+    );
+    assert_eq!(scene.outputs[0], Output::History { every: 1e-6 });
+    assert_eq!(scene.outputs[1], Output::Surface { at: Some(Moment::End), every: None });
+}
+
+#[test]
+fn what_a_scene_leaves_out_has_the_stated_default() {
+    let text = r#"(version: 1, name: "least",
+        materials: {"m": (hardness: 1e9, young: 2e11)},
+        surfaces: {"s": (material: "m", geometry: HexStrip(length: 0.1, width: 0.1, nodes: 100))},
+        bodies: {"b": (shape: Ball(radius: 1e-3), density: 1.0, position: OnSurface(surface: "s"))})"#;
+    let scene = load_text("least", text.into(), Default::default(), &[]).unwrap().scene;
+    assert_eq!(scene.gravity, [0.0; 3]);
+    assert_eq!(scene.run.step, 1.0 / 240.0);
+    assert_eq!((scene.run.accuracy, scene.run.stop), (1e-3, Stop::AllRebounded));
+    let surface = &scene.surfaces["s"];
+    assert_eq!(surface.flow, FlowLaw::CapozzaHanley { lateral: Lateral::Projected });
+    assert_eq!(surface.elastic, ElasticLaw::Foundation { stiffness: None });
+    assert_eq!((&surface.motion, &surface.removal), (&SurfaceMotion::Fixed, &Removal::All));
+    let body = &scene.bodies["b"];
+    assert_eq!(body.motion, Motion::Free { velocity: [0.0; 3], spin: [0.0; 3] });
+    let own = OnSurfaceDefaults { at: [0.0, 0.0], gap: 0.0 };
+    let Placement::OnSurface { at, gap, .. } = body.position else { panic!("{body:?}") };
+    assert_eq!(own, OnSurfaceDefaults { at, gap });
+}
+
+#[derive(Debug, PartialEq)]
+struct OnSurfaceDefaults {
+    at: [f64; 2],
+    gap: f64,
+}
+
+#[test]
+fn every_alternative_is_read() {
+    let scene = checked(&[
+        "surfaces.plate.elastic=HertzNodes(node_radius: \"0.25 mm\", convention: RigidBody)",
+        "surfaces.plate.flow=NormalPressure()",
+        "surfaces.plate.removal=AttackAngle(critical: \"35 deg\")",
+        "surfaces.plate.geometry=HexStrip(length: \"30 mm\", width: 0.012, nodes: 5012)",
+        "bodies.ball.shape=Polyhedron(kind: Tetrahedron, edge: \"1 mm\")",
+        "bodies.ball.rotation=Random(seed: 7)",
+        "bodies.ball.rotation_locked=true",
+        "bodies.ball.motion=Drive(indent_to: \"21 kN\", load: \"20 kN\", speed: \"0.2 m/s\", \
+         distance: \"80 mm\", rate_over: \"8 mm\", mass: 0.0335, solution: QuasiStatic())",
+        "run=(stop: Time(limit: \"0.4 s\"), step: \"1/60 s\")",
+        "outputs=[Surface(every: \"1 ms\"), Bodies, Picture, Energy, Report]",
+    ])
+    .scene;
+    let surface = &scene.surfaces["plate"];
+    assert_eq!(
+        surface.elastic,
+        ElasticLaw::HertzNodes { node_radius: 0.25 * 1e-3, convention: HertzConvention::RigidBody }
+    );
+    let body = &scene.bodies["ball"];
+    assert_eq!(
+        body.shape,
+        SceneShape::Polyhedron { kind: Polyhedron::Tetrahedron, edge: 1.0 * 1e-3 }
+    );
+    let Motion::Drive { indent_to, mass, solution, .. } = &body.motion else { panic!("{body:?}") };
+    assert_eq!((*indent_to, *mass), (21e3, Some(0.0335)));
+    assert_eq!(*solution, Solution::QuasiStatic { increment: None });
+    assert_eq!((scene.run.step, &scene.run.stop), (1.0 / 60.0, &Stop::Time { limit: 0.4 }));
+
+    for argument in [
+        "bodies.ball.motion=Drive(indent_to: 21e3, solution: Dynamic())",
+        "bodies.ball.motion=Free(velocity: (\"1 m/s\", 0, 0.0), spin: (0, \"10 rpm\", 0))",
+        "bodies.ball.rotation=Quaternion(xyzw: (0.0, 0.0, 0.0, 2.0))",
+        "bodies.ball.position=At(point: (0, 0, \"1 m\"))",
+        "bodies.ball.shape=Cuboid(size: (\"1 mm\", \"2 mm\", 0.003))",
+        "bodies.ball.shape=ConvexHull(points: [(0,0,0), (1,0,0), (0,1,0), (0,0,1)])",
+        "bodies.ball.shape=Clump(spheres: [(0, 0, 0, \"1 mm\"), (\"1 mm\", 0, 0, \"1 mm\")])",
+        "surfaces.plate.elastic=Rigid",
+        "surfaces.plate.elastic.stiffness=1 GPa/mm",
+        "surfaces.plate.flow.lateral=Eq5",
+        "surfaces.plate.removal=Fraction(of: 0.1)",
+        "run.stop=FirstExit",
+        "run.stop=Impacts(count: 10000)",
+        "run.resolve=Micro",
+    ] {
+        checked(&[argument]);
+    }
+}
+
+#[test]
+fn what_is_not_there_yet_says_so() {
+    for (argument, what) in [
+        ("surfaces.plate.motion=Kinematic(velocity: (1, 0, 0))", "Kinematic"),
+        ("surfaces.plate.motion=Free(density: 7800)", "Free"),
+        ("run.resolve=Lockstep", "Lockstep"),
+        ("run.resolve=QuasiStatic", "QuasiStatic"),
+        ("outputs.0=Checkpoint", "Checkpoint"),
+        ("streams={\"sand\": (rate: 5.0, shape: Ball(radius: \"1 mm\"))}", "streams"),
+    ] {
+        let refusal = refusal(&[argument]);
+        assert!(refusal.ends_with(&format!("`{what}` is not available yet")), "{refusal}");
+    }
+}
+
+#[test]
+fn all_faults_of_a_scene_are_named_at_once() {
+    let error = set(&[
+        "materials.plate.friction=-1",
+        "surfaces.plate.material=\"plat\"",
+        "bodies.ball.position.surface=\"plato\"",
+        "bodies.ball.density=0",
+        "bodies.ball.rotation.axis=(0, 0, 0)",
+        "bodies.ball.motion.angle=91 deg",
+        "run.stop=Distance",
+        "outputs.1.every=1",
+    ])
+    .unwrap_err();
+    assert_eq!(error.problems.len(), 8, "{error}");
+}
+
+#[test]
+fn a_name_given_twice_is_refused() {
+    let text = super::SCENE.replace("  bodies: {", "  bodies: { \"ball\": (");
+    assert!(load_text("x", text, Default::default(), &[]).is_err());
+    let twice = super::SCENE.replace("streams: {}", "streams: {\"a\": 1, \"a\": 2}");
+    let error = load_text("x", twice, Default::default(), &[]).unwrap_err();
+    assert!(error.to_string().contains("the name `a` is given twice; given again"), "{error}");
+}
+
+#[test]
+fn alternatives_exclude_each_other() {
+    for (argument, message) in [
+        ("surfaces.plate.geometry.nodes=5", "must have either `pitch` or `nodes`"),
+        ("bodies.ball.shape=ConvexHull()", "give either `points` or `file`"),
+        ("bodies.ball.shape=Clump()", "give either `spheres` or `file`"),
+        ("outputs.1.every=1 s", "has both `at` and `every`"),
+    ] {
+        let refusal = refusal(&[argument]);
+        assert!(refusal.contains(message), "{refusal}");
+    }
+}
+
+#[test]
+fn a_drive_must_be_able_to_move() {
+    let drive =
+        |fields: &str| refusal(&[&format!("bodies.ball.motion=Drive(indent_to: 10, {fields})")]);
+    assert!(drive("distance: 1").contains("slides a distance at no speed"));
+    assert!(drive("distance: 1, speed: 1, rate_over: 2").contains("longer than the path"));
+    assert!(drive("mass: -1").contains("`bodies.ball.motion.mass` is out of range"));
+}
