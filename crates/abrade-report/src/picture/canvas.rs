@@ -152,19 +152,20 @@ impl Canvas {
         Ok(bytes)
     }
 
+    /// Every picture pixel as the mean of its sheet pixels.
     fn averaged(&self, width: usize, height: usize) -> Vec<u8> {
-        let mut out = Vec::with_capacity(width * height * 3);
-        for i in 0..width * height * 3 {
-            let (pixel, channel) = (i / 3, i % 3);
-            let (row, column) = (pixel / width, pixel % width);
-            let mut sum = 0;
-            for (dy, dx) in (0..SCALE * SCALE).map(|k| (k / SCALE, k % SCALE)) {
-                let at = (row * SCALE + dy) * self.size[0] + column * SCALE + dx;
-                sum += usize::from(self.pixels[3 * at + channel]);
+        let area = (SCALE * SCALE) as u16;
+        let mut sums = vec![0_u16; width * height * 3];
+        for (y, row) in self.pixels.chunks_exact(3 * self.size[0]).enumerate() {
+            let first = 3 * width * (y / SCALE);
+            for (x, pixel) in row.chunks_exact(3).enumerate() {
+                let at = first + 3 * (x / SCALE);
+                sums[at] += u16::from(pixel[0]);
+                sums[at + 1] += u16::from(pixel[1]);
+                sums[at + 2] += u16::from(pixel[2]);
             }
-            out.push(((sum + SCALE * SCALE / 2) / (SCALE * SCALE)) as u8);
         }
-        out
+        sums.iter().map(|sum| ((sum + area / 2) / area) as u8).collect()
     }
 
     fn draw<E: std::error::Error + Send + Sync + 'static>(

@@ -64,17 +64,17 @@ impl Grid {
             let dy = self.at(1, row) - node.at[1];
             for column in columns.clone() {
                 let dx = self.at(0, column) - node.at[0];
-                let far = (dx.hypot(dy) / spacing) as f32;
+                let far = ((dx * dx + dy * dy).sqrt() / spacing) as f32;
                 let weight = (1.0 - far).max(0.0) + FAINT * (REACH as f32 - far).max(0.0);
                 let sum = &mut sums[row * self.size[0] + column];
                 sum.weight += weight;
                 sum.worn += weight * worn;
                 let half = 0.5 * (slope[0] * dx + slope[1] * dy);
                 sum.depth += weight * (node.depth + half) as f32;
-                for (k, way) in [dx, dy].into_iter().enumerate() {
-                    sum.slope[k] += weight * slope[k] as f32;
-                    sum.way[k] += weight * way as f32;
-                }
+                sum.slope[0] += weight * slope[0] as f32;
+                sum.slope[1] += weight * slope[1] as f32;
+                sum.way[0] += weight * dx as f32;
+                sum.way[1] += weight * dy as f32;
             }
         }
     }
