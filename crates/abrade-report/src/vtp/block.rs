@@ -8,7 +8,7 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 
 /// Uncompressed bytes of a block: readers decompress one at a time.
-pub(super) const BLOCK: usize = 1 << 20;
+pub(super) const BLOCK: usize = 1 << 17;
 
 /// Collects bytes and compresses them block by block, so that an array is never held twice.
 pub(super) struct Blocks {
