@@ -1,6 +1,7 @@
 //! Tests of the whole: physics against references that this project did not write.
 
 mod foundation;
+mod ledger;
 mod paper;
 mod rig;
 mod table;

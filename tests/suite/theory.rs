@@ -127,12 +127,12 @@ fn rms(errors: impl Iterator<Item = f64>) -> f64 {
 /// A prism with its edge along y on one row of nodes; turning about y alone.
 fn prism(row: &Row, spacing: f64) -> Shot {
     let pitch = spacing / 0.75f64.sqrt();
-    let half = number(row, if row.contains_key("apex_deg") { "apex_deg" } else { "apex" }).to_radians() / 2.0;
+    let half = number(row, if row.contains_key("apex_deg") { "apex_deg" } else { "apex" })
+        .to_radians()
+        / 2.0;
     let corners = [[0.0, -half.cos()], [half.sin(), 0.0], [0.0, half.cos()], [-half.sin(), 0.0]];
-    let points: Vec<_> = corners
-        .iter()
-        .flat_map(|[x, z]| [-5.0, 5.0].map(|y| Point3::new(*x, y, *z)))
-        .collect();
+    let points: Vec<_> =
+        corners.iter().flat_map(|[x, z]| [-5.0, 5.0].map(|y| Point3::new(*x, y, *z))).collect();
     let (hull, _, _) = Hull::solid(&points, 1.0).expect("a prism");
     // B = m v^2 / (H w L^2) with w = one row.
     let mass = number(row, "B") * pitch;
@@ -216,7 +216,13 @@ fn polyhedron(kind: &str, b: f64, angle: f64, quaternion: &str, pitch: f64) -> S
     }
 }
 
-fn polyhedron_row(row: &Row, name: &str, pitch: f64, tolerance: [f64; 3], misses: &mut Vec<String>) {
+fn polyhedron_row(
+    row: &Row,
+    name: &str,
+    pitch: f64,
+    tolerance: [f64; 3],
+    misses: &mut Vec<String>,
+) {
     let quaternion = row.get("quat").or_else(|| row.get("quat_xyzw")).expect("a quaternion");
     let shot = polyhedron(name, number(row, "B"), number(row, "alpha"), quaternion, pitch);
     let ends: Vec<_> = offsets(pitch, 4).into_iter().map(|at| shot.land(at)).collect();
@@ -228,14 +234,17 @@ fn polyhedron_row(row: &Row, name: &str, pitch: f64, tolerance: [f64; 3], misses
         rms(ends.iter().map(|e| (e.state.velocity - v).norm())),
         rms(ends.iter().map(|e| (e.state.spin - omega).norm())),
     ];
-    let balance = ends
-        .iter()
-        .map(|e| (e.paid - e.energy[0] + e.energy[1]).abs() / e0)
-        .fold(0.0, f64::max);
+    let balance =
+        ends.iter().map(|e| (e.paid - e.energy[0] + e.energy[1]).abs() / e0).fold(0.0, f64::max);
     let line = format!(
         "{name} alpha {}: rms W {:.1e} v {:.1e} omega {:.1e} balance {balance:.0e} chip {:.1e} steps {} columns {}",
-        row["alpha"], errors[0], errors[1], errors[2],
-        ends[0].surface.worn().chip / e0, ends[0].advance.steps, ends[0].advance.node_evaluations
+        row["alpha"],
+        errors[0],
+        errors[1],
+        errors[2],
+        ends[0].surface.worn().chip / e0,
+        ends[0].advance.steps,
+        ends[0].advance.node_evaluations
     );
     println!("{line}");
     if errors.iter().zip(tolerance).any(|(e, t)| *e > t) || balance > 1e-9 {

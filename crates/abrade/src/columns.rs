@@ -9,6 +9,7 @@ use nalgebra::{Isometry3, Point3, Vector3};
 
 use crate::body::State;
 use crate::candidates::{Candidates, Slot};
+use crate::column::{Column, Interval, Pieces};
 use crate::elastic::coefficient;
 use crate::laws::{ElasticLaw, FlowLaw};
 use crate::node_law::{Motion, STEEP};
@@ -27,6 +28,7 @@ const LONG: f64 = 3.0;
 pub(crate) struct Columns {
     candidates: Candidates,
     columns: Vec<Column>,
+    cuts: Vec<Cut>,
     carried: Vec<(Slot, Column)>,
     swept: Swept,
     price: Price,
@@ -34,57 +36,60 @@ pub(crate) struct Columns {
     stiffness: f64,
     yield_overlap: f64,
     friction: f64,
-    /// Largest normal force of the last step, for the summary.
-    touching: usize,
-}
-
-/// A column in contact: coordinates along the normal from the node's place when the contact began.
-#[derive(Clone, Copy, Debug, Default)]
-struct Column {
-    touched: bool,
-    /// Height of the material's upper end below the body, <= 0 [m].
-    height: f64,
-    /// Lower end of an overhang left standing above a void; zero without one [m].
-    roof: f64,
-    /// Compression of the spring [m].
-    squeeze: f64,
-    /// What the step's trial takes away.
-    cut: Cut,
 }
 
 /// A step's trial on a column.
 #[derive(Clone, Copy, Debug, Default)]
 struct Cut {
-    active: bool,
-    /// Lengths taken below and above [m].
-    below: f64,
-    above: f64,
-    /// Roof of a fresh void.
-    fresh_roof: Option<f64>,
-    /// Share of the lengths swept sideways, and the sine of the angle of attack.
+    /// Solid that the body swept.
+    pieces: Pieces,
+    /// Share of their length swept sideways, and the sine of the angle of attack.
     lateral: f64,
     attack: f64,
     squeeze: f64,
 }
 
+/// Impulses on a body over a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Push {
+    /// Impulse [N s] and impulsive torque about the centre of mass [N m s].
+    pub impulse: Vector3<f64>,
+    pub torque: Vector3<f64>,
+    /// Energy that slip under these impulses dissipates [J].
+    pub friction: f64,
+}
+
 /// What a step takes from the body.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Toll {
-    /// Impulse on the body [N s] and impulsive torque about its centre of mass [N m s].
-    pub impulse: Vector3<f64>,
-    pub torque: Vector3<f64>,
-    /// Price of the removed volume and of the slip [J].
+    /// Of the faces that sweep, and the price of the removed volume [J].
+    pub flow: Push,
     pub wear: f64,
-    pub friction: f64,
-    /// Change of the stored energy [J], and the part of it lost sideways.
+    /// Of the springs, the change of their energy [J], and the part of it lost sideways.
+    pub spring: Push,
     pub elastic: f64,
     pub lost: f64,
     /// Sum of stiffnesses along the face normals [N/m].
     pub stiffness: f64,
-    /// Impulse along minus the nodes' normals [N s].
-    pub normal_impulse: f64,
     pub flow_area: f64,
     pub touching: usize,
+}
+
+impl Push {
+    fn add(&mut self, other: &Self, pose: &Isometry3<f64>) {
+        self.impulse += pose * other.impulse;
+        self.torque += pose * other.torque;
+        self.friction += other.friction;
+    }
+
+    /// Scaled, friction included.
+    pub(crate) fn scaled(&self, scale: f64) -> Self {
+        Self {
+            impulse: self.impulse * scale,
+            torque: self.torque * scale,
+            friction: self.friction * scale,
+        }
+    }
 }
 
 /// Energy per volume that a face pays.
@@ -132,10 +137,9 @@ impl Price {
 impl Toll {
     /// Adds the toll of another surface, whose frame is `pose`.
     pub(crate) fn add(&mut self, other: &Self, pose: &Isometry3<f64>) {
-        self.impulse += pose * other.impulse;
-        self.torque += pose * other.torque;
+        self.flow.add(&other.flow, pose);
+        self.spring.add(&other.spring, pose);
         self.wear += other.wear;
-        self.friction += other.friction;
         self.elastic += other.elastic;
         self.lost += other.lost;
         self.stiffness += other.stiffness;
@@ -167,6 +171,7 @@ impl Columns {
         Self {
             candidates: Candidates::default(),
             columns: Vec::new(),
+            cuts: Vec::new(),
             carried: Vec::new(),
             swept: Swept::default(),
             price: Price {
@@ -177,7 +182,6 @@ impl Columns {
             stiffness,
             yield_overlap: material.hardness / stiffness,
             friction: material.friction,
-            touching: 0,
         }
     }
 
@@ -214,8 +218,11 @@ impl Columns {
         }
         self.carried.clear();
         let columns = self.candidates.slots.iter().zip(&self.columns);
-        self.carried
-            .extend(columns.filter(|(_, c)| c.touched).map(|(slot, column)| (*slot, *column)));
+        self.carried.extend(
+            columns
+                .filter(|(_, c)| c.is_cut() || c.squeeze > 0.0)
+                .map(|(slot, column)| (*slot, *column)),
+        );
         self.candidates.collect_columns(surface, shape, state, margin);
         let slots = &mut self.candidates.slots;
         slots.retain(|slot| self.carried.binary_search_by_key(&slot.id, |(s, _)| s.id).is_err());
@@ -227,6 +234,8 @@ impl Columns {
             from.next_if(|(carried, _)| carried.id == slot.id)
                 .map_or_else(Column::default, |(_, column)| *column)
         }));
+        self.cuts.clear();
+        self.cuts.resize(self.columns.len(), Cut::default());
     }
 
     /// Takes every column through a step; commits nothing.
@@ -244,11 +253,12 @@ impl Columns {
         let middle = nalgebra::center(&start.position, &end.position);
         let step = Step { swept: &swept, motion, middle, reach };
         let mut toll = Toll::default();
-        let mut columns = std::mem::take(&mut self.columns);
-        for (slot, column) in self.candidates.slots.iter().zip(&mut columns) {
-            column.cut = self.column(&step, slot, column, &mut toll);
+        let mut cuts = std::mem::take(&mut self.cuts);
+        let columns = self.candidates.slots.iter().zip(&self.columns);
+        for ((slot, column), cut) in columns.zip(&mut cuts) {
+            *cut = self.column(&step, slot, column, &mut toll);
         }
-        self.columns = columns;
+        self.cuts = cuts;
         self.swept = swept;
         toll
     }
@@ -256,45 +266,32 @@ impl Columns {
     /// One column in one step.
     #[inline]
     fn column(&self, step: &Step<'_>, slot: &Slot, column: &Column, toll: &mut Toll) -> Cut {
-        let idle = Cut::default();
-        let top = if column.touched { column.height } else { 0.0 };
-        let overhang = column.touched && column.roof < 0.0;
+        let mut cut = Cut::default();
         let Some(span) = step.swept.span(&slot.x, &slot.n) else {
             // The body left sideways: what the spring still held pushes nobody.
             let stored = self.stored(slot.area, column.squeeze);
             toll.elastic -= stored;
             toll.lost += stored;
-            return idle;
+            return cut;
         };
-        if span.low >= top && column.squeeze == 0.0 && !(overhang && span.high > column.roof) {
-            return idle;
-        }
-        toll.touching += 1;
-        let mut cut = Cut { active: true, ..idle };
         // With springs the body sweeps as if lifted by the yield overlap.
         let (low, high) = (span.low + self.yield_overlap, span.high + self.yield_overlap);
         let mut flow = Taken::default();
-        if low < top {
-            let upper = if column.touched { column.height } else { high.min(0.0) };
-            cut.below = (upper - low).max(0.0);
-            if !column.touched && high < 0.0 {
-                cut.fresh_roof = Some(high);
+        if low < 0.0 {
+            cut.pieces = column.solid(low, high);
+            for piece in cut.pieces.iter() {
+                self.charge(step, slot, &span, piece, &mut flow, toll);
             }
-            self.charge(step, slot, &span, [low, upper], &mut flow, toll);
-        }
-        if overhang && high > column.roof {
-            let upper = high.min(0.0);
-            cut.above = upper - column.roof;
-            self.charge(step, slot, &span, [column.roof, upper], &mut flow, toll);
         }
         if self.yield_overlap > 0.0 {
-            cut.squeeze = self.squeeze(step, slot, column, &span, top, cut.below > 0.0, toll);
+            cut.squeeze = self.squeeze(step, slot, column, &span, flow.length > 0.0, toll);
         }
         if flow.length > 0.0 {
             cut.lateral = flow.lateral / flow.length;
             cut.attack = flow.attack / flow.length;
             toll.flow_area += slot.area / (-span.deep_normal.dot(&slot.n)).max(STEEP);
         }
+        toll.touching += usize::from(flow.length > 0.0 || cut.squeeze > 0.0);
         cut
     }
 
@@ -304,7 +301,7 @@ impl Columns {
         step: &Step<'_>,
         slot: &Slot,
         span: &Span,
-        [low, high]: [f64; 2],
+        &[low, high]: &Interval,
         flow: &mut Taken,
         toll: &mut Toll,
     ) {
@@ -328,7 +325,7 @@ impl Columns {
             let (price, lateral) = self.price.of(&entry, &slot.n, step.motion, &arm);
             let energy = price * slot.area * length;
             toll.wear += energy;
-            self.press(step, slot, &entry.normal, &arm, energy / entry.displacement, toll);
+            self.press(step, &entry.normal, &arm, energy / entry.displacement, &mut toll.flow);
             flow.length += length;
             flow.lateral += lateral * length;
             flow.attack += attack(&entry.normal, &slot.n, &step.motion.velocity) * length;
@@ -339,11 +336,10 @@ impl Columns {
     fn press(
         &self,
         step: &Step<'_>,
-        slot: &Slot,
         normal: &Vector3<f64>,
         arm: &Vector3<f64>,
         force: f64,
-        toll: &mut Toll,
+        push: &mut Push,
     ) {
         let mut pull = -normal * force;
         if self.friction > 0.0 {
@@ -352,13 +348,12 @@ impl Columns {
             let speed = slip.norm();
             if speed > 0.0 {
                 pull -= slip * (self.friction * force / speed);
-                toll.friction += self.friction * force * speed * step.motion.dt;
+                push.friction += self.friction * force * speed * step.motion.dt;
             }
         }
         let impulse = pull * step.motion.dt;
-        toll.impulse += impulse;
-        toll.torque += arm.cross(&impulse);
-        toll.normal_impulse += impulse.dot(&slot.n);
+        push.impulse += impulse;
+        push.torque += arm.cross(&impulse);
     }
 
     /// The spring below the deep end; returns its new compression [m].
@@ -369,12 +364,16 @@ impl Columns {
         slot: &Slot,
         column: &Column,
         span: &Span,
-        top: f64,
         flows: bool,
         toll: &mut Toll,
     ) -> f64 {
         let before = column.squeeze;
-        let after = (top - span.low).clamp(0.0, self.yield_overlap);
+        let lifted = span.low + self.yield_overlap;
+        let over = column.level_below(lifted) - span.low;
+        let after = if flows { self.yield_overlap } else { over.clamp(0.0, self.yield_overlap) };
+        if before == 0.0 && after == 0.0 {
+            return 0.0;
+        }
         let change = self.stored(slot.area, after) - self.stored(slot.area, before);
         let cosine = (-span.deep_normal.dot(&slot.n)).max(STEEP);
         let arm = slot.x + slot.n * span.low - step.middle;
@@ -389,39 +388,30 @@ impl Columns {
         };
         toll.elastic += change;
         toll.stiffness += self.stiffness * slot.area / (cosine * cosine);
-        self.press(step, slot, &span.deep_normal, &arm, force, toll);
+        self.press(step, &span.deep_normal, &arm, force, &mut toll.spring);
         after
     }
 
     /// Makes the trial the state; a blocked body (`share` < 1) takes only that share.
     pub(crate) fn commit(&mut self, surface: &mut Surface, share: f64, toll: &Toll, dt: f64) {
         let removal = surface.laws.removal.clone();
-        for (slot, column) in self.candidates.slots.iter().zip(&mut self.columns) {
-            let cut = column.cut;
+        let columns = self.candidates.slots.iter().zip(&mut self.columns);
+        for ((slot, column), cut) in columns.zip(&self.cuts) {
             column.squeeze = cut.squeeze;
-            if !cut.active {
-                continue;
-            }
-            let (below, above) = (share * cut.below, share * cut.above);
-            if !column.touched && cut.below > 0.0 {
-                // A fresh void lies under its roof; an open column is cut from its top.
-                column.touched = true;
-                column.roof = cut.fresh_roof.unwrap_or(0.0);
-                column.height = column.roof;
-            }
-            column.height -= below;
-            column.roof = (column.roof + above).min(0.0);
-            let total = below + above;
-            if total > 0.0 {
-                surface.nodes.depth[slot.id as usize] += total;
-                surface.worn.lateral += slot.area * total * cut.lateral;
-                surface.worn.normal += slot.area * total * (1.0 - cut.lateral);
-                surface.worn.removed += slot.area * total * removed_share(&removal, cut.attack);
+            for piece in cut.pieces.iter() {
+                let total = share * (piece[1] - piece[0]);
+                let broken = column.dig(piece, share);
+                surface.nodes.depth[slot.id as usize] += total + broken;
+                let worn = &mut surface.worn;
+                worn.lateral += slot.area * total * cut.lateral;
+                worn.normal += slot.area * total * (1.0 - cut.lateral);
+                worn.chip += slot.area * broken;
+                worn.removed += slot.area * (total * removed_share(&removal, cut.attack) + broken);
             }
         }
-        self.touching = toll.touching;
         let worn = &mut surface.worn;
-        worn.peak_normal_force = worn.peak_normal_force.max(toll.normal_impulse / dt);
+        let force = (toll.flow.impulse + toll.spring.impulse) / dt;
+        worn.peak_normal_force = worn.peak_normal_force.max(force.norm());
         worn.peak_touching = worn.peak_touching.max(toll.touching);
         worn.indented_area = worn.indented_area.max(toll.flow_area);
     }
@@ -429,10 +419,11 @@ impl Columns {
     /// End of a contact: overhangs break off, unpaid.
     pub(crate) fn end_contact(&mut self, surface: &mut Surface) {
         for (slot, column) in self.candidates.slots.iter().zip(&mut self.columns) {
-            if column.touched && column.roof < 0.0 {
-                surface.nodes.depth[slot.id as usize] -= column.roof;
-                surface.worn.chip -= slot.area * column.roof;
-                surface.worn.removed -= slot.area * column.roof;
+            let standing = column.standing();
+            if standing > 0.0 {
+                surface.nodes.depth[slot.id as usize] += standing;
+                surface.worn.chip += slot.area * standing;
+                surface.worn.removed += slot.area * standing;
             }
             *column = Column::default();
         }

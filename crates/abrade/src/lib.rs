@@ -7,6 +7,7 @@
 
 mod body;
 mod candidates;
+mod column;
 mod columns;
 mod contact;
 mod elastic;

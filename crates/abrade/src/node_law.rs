@@ -154,6 +154,8 @@ const ROOT_STEPS: usize = 40;
 pub(crate) struct Answer {
     pub spring: Spring,
     pub loaded: Loaded,
+    /// Change of the overlap over the step; of a node touched afresh, before it sank [m].
+    pub overlap_change: f64,
 }
 
 /// Takes a node through one step; None when it is out of contact at the end.
@@ -200,7 +202,11 @@ pub(crate) fn resolve<E: Elastic, Q: Query, F: Flow>(
         drop,
         attack: m.dot(&node.heading),
     };
-    Some(Answer { spring, loaded })
+    let overlap_change = match was_in_contact {
+        true => (spring.overlap - old.overlap).abs(),
+        false => trial.overlap,
+    };
+    Some(Answer { spring, loaded, overlap_change })
 }
 
 /// The body's advance over the step, as the flow laws split it.

@@ -244,6 +244,7 @@ impl Patch {
         motion: &Motion,
     ) -> Reaction {
         let mut sum = Reaction::default();
+        let mut largest_change: f64 = 0.0;
         let springs = self.old.iter().zip(&mut self.new);
         for (slot, (old, new)) in self.candidates.slots.iter().zip(springs) {
             let answer = query.near(&slot.x).then(|| {
@@ -260,6 +261,10 @@ impl Patch {
                 resolve(&flow, node, old, motion)
             });
             let Some(answer) = answer.flatten() else {
+                if old.overlap > 0.0 {
+                    let fall = old.overlap - query.touch(&slot.x, &slot.n).overlap;
+                    largest_change = largest_change.max(fall);
+                }
                 if new.overlap != 0.0 {
                     *new = Spring::default();
                 }
@@ -280,9 +285,7 @@ impl Patch {
             let flow_area = slot.area / k.cosine.max(crate::node_law::STEEP);
             sum.normal_flow_area += if drop.normal > 0.0 { flow_area } else { 0.0 };
             sum.lateral_flow_area += if drop.lateral > 0.0 { flow_area } else { 0.0 };
-            let change = (overlap - old.overlap).abs() * stiffness;
-            let cap = flow.normal_cap(slot.area, k).max(f64::MIN_POSITIVE);
-            sum.overlap_change = sum.overlap_change.max(change / cap);
+            largest_change = largest_change.max(answer.overlap_change);
             sum.reach = sum.reach.max(k.touch.arm.norm());
             sum.touching += 1;
             sum.evaluations += 1;
@@ -305,6 +308,7 @@ impl Patch {
             }
             *new = answer.spring;
         }
+        sum.overlap_change = largest_change / self.yield_overlap;
         sum
     }
 

@@ -3,14 +3,14 @@
 use nalgebra::Vector3;
 
 use crate::body::{Body, State};
-use crate::columns::Toll;
+use crate::columns::{Push, Toll};
 use crate::contact::Contact;
 use crate::encounter::{Loads, Placed};
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
 use crate::node_law::Motion;
 use crate::patch::Reaction;
-use crate::projection::project;
+use crate::projection::{balance, pay};
 use crate::rotation::Dynamics;
 
 /// Reach of a candidate list in displacements of the step, and its least value in pitches.
@@ -60,7 +60,15 @@ pub(crate) struct Settled {
 
 impl Trial {
     pub(crate) fn is_finite(&self) -> bool {
-        let forces = [self.springs.force, self.springs.torque, self.toll.impulse, self.toll.torque];
+        let Toll { flow, spring, .. } = &self.toll;
+        let forces = [
+            self.springs.force,
+            self.springs.torque,
+            flow.impulse,
+            flow.torque,
+            spring.impulse,
+            spring.torque,
+        ];
         self.state.is_finite() && forces.iter().all(|v| v.iter().all(|x| x.is_finite()))
     }
 
@@ -177,11 +185,21 @@ impl Integrator {
         self.kick(body, loads, &springs.force, &springs.torque, 0.5 * dt, &mut state);
         let toll = &trial.toll;
         let sprung = self.has_sprung_columns();
-        let projection = project(toll, &state, &self.dynamics, sprung, self.short);
-        self.short = projection.short;
-        let (impulse, torque) = (toll.impulse * projection.scale, toll.torque * projection.scale);
-        state.velocity += impulse * self.dynamics.inverse_mass;
-        state.spin += self.dynamics.turn(&state.rotation, &torque);
+        let apply = |push: &Push, state: &mut State| {
+            state.velocity += push.impulse * self.dynamics.inverse_mass;
+            state.spin += self.dynamics.turn(&state.rotation, &push.torque);
+        };
+        let cost = toll.spring.friction + toll.elastic + toll.lost + self.short;
+        let (scale, short) = balance(&toll.spring, cost, &state, &self.dynamics);
+        let sprung_push = toll.spring.scaled(scale);
+        apply(&sprung_push, &mut state);
+        let cost = toll.wear + toll.flow.friction;
+        let payment = pay(&toll.flow, cost, &state, &self.dynamics);
+        let flow_push = toll.flow.scaled(payment.scale);
+        apply(&flow_push, &mut state);
+        let impulse = sprung_push.impulse + flow_push.impulse;
+        let torque = sprung_push.torque + flow_push.torque;
+        self.short = short;
         let mut elastic = springs.ledger.elastic;
         let mut push = springs.push;
         let pairs = self.contacts.iter_mut().zip(surfaces.iter_mut());
@@ -191,8 +209,8 @@ impl Integrator {
                     patch.commit(placed.surface, reaction);
                 }
                 (Contact::Columns(columns), Answer::Columns(toll)) => {
-                    columns.commit(placed.surface, projection.share, toll, dt);
-                    push += placed.pose * toll.impulse / dt;
+                    columns.commit(placed.surface, payment.share, toll, dt);
+                    push += placed.pose * (toll.flow.impulse + toll.spring.impulse) / dt;
                     if sprung {
                         elastic += columns.elastic();
                     }
@@ -209,8 +227,10 @@ impl Integrator {
         };
         let ledger = Ledger {
             elastic,
-            friction: springs.ledger.friction + toll.friction * projection.share,
-            wear: springs.ledger.wear + toll.wear * projection.share,
+            friction: springs.ledger.friction
+                + toll.spring.friction
+                + toll.flow.friction * payment.share,
+            wear: springs.ledger.wear + toll.wear * payment.share,
             history: springs.ledger.history + toll.lost,
             ..Ledger::default()
         };
