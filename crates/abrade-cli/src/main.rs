@@ -1,2 +1,38 @@
-//! The `abrade` command.
-fn main() {}
+//! The `abrade` command: arguments, messages, exit codes. Reads scenes through `abrade-scene`;
+//! holds no physics.
+//!
+//! Exit codes: 0 done, 1 the run failed, 2 bad input, 130 interrupted.
+#![forbid(unsafe_code)]
+#![warn(missing_docs)]
+
+mod arguments;
+mod check;
+mod clump;
+mod failure;
+mod output_folder;
+mod quantity_text;
+mod render;
+mod run;
+mod schema;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use arguments::{Arguments, Command};
+
+fn main() -> ExitCode {
+    let result = match Arguments::parse().command {
+        Command::Run(arguments) => run::run(&arguments),
+        Command::Check(arguments) => check::check(&arguments),
+        Command::Clump(arguments) => clump::clump(&arguments),
+        Command::Schema(arguments) => schema::schema(&arguments),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            failure.print();
+            ExitCode::from(failure.exit_code())
+        }
+    }
+}

@@ -66,7 +66,7 @@ impl Checker<'_> {
         let text = &self.patched.text;
         let found = self.tree.find(text, &path.0);
         let range = match (found.depth == path.0.len(), &found.key) {
-            (true, _) | (false, None) => found.node.head(text),
+            (true, _) | (false, None) => found.place(text),
             (false, Some(key)) => key.clone(),
         };
         self.patched.mark(range, label)

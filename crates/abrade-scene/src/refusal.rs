@@ -26,10 +26,13 @@ pub(crate) fn scene_path(path: &serde_path_to_error::Path) -> Option<ScenePath> 
 pub(crate) fn syntax(patched: &Patched, error: &SpannedError) -> Problem {
     let text = &patched.text;
     let at = byte_at(text, &error.span.start);
-    let end = byte_at(text, &error.span.end).max(next_char(text, at));
+    let range = match text[at..].trim().is_empty() {
+        true => last_char(text),
+        false => at..next_char(text, at),
+    };
     Problem {
         message: "the scene is not RON".into(),
-        marks: vec![patched.mark(at..end, lowered(&error.code.to_string()))],
+        marks: vec![patched.mark(range, lowered(&error.code.to_string()))],
         help: syntax_help(text, at, &error.code).map(str::to_owned),
     }
 }
@@ -60,12 +63,12 @@ pub(crate) fn refusal(
     let name = if path.0.is_empty() { "the scene".to_owned() } else { format!("`{path}`") };
     let place = |label: String, message: String, help: Option<String>| Problem {
         message,
-        marks: vec![patched.mark(found.node.head(text), label)],
+        marks: vec![patched.mark(found.place(text), label)],
         help,
     };
     match &error.code {
         Error::NoSuchStructField { expected, found: field, .. } => {
-            let mark = found.key.clone().unwrap_or_else(|| found.node.head(text));
+            let mark = found.key.clone().unwrap_or_else(|| found.place(text));
             Problem {
                 message: format!("unknown field `{field}`{}", inside(path)),
                 marks: vec![
@@ -123,7 +126,7 @@ fn structure(patched: &Patched, found: &Found, name: &str, error: &SpannedError)
     };
     Problem {
         message: format!("{name} has the wrong form"),
-        marks: vec![patched.mark(found.node.head(text), label)],
+        marks: vec![patched.mark(found.place(text), label)],
         help: None,
     }
 }
@@ -178,6 +181,13 @@ fn byte_at(text: &str, position: &Position) -> usize {
 
 fn next_char(text: &str, at: usize) -> usize {
     at + text[at..].chars().next().map_or(0, char::len_utf8)
+}
+
+/// The last character that is not blank.
+fn last_char(text: &str) -> std::ops::Range<usize> {
+    let text = text.trim_end();
+    let start = text.char_indices().next_back().map_or(0, |(at, _)| at);
+    start..text.len()
 }
 
 /// RON's messages begin with a capital; ours do not.

@@ -136,7 +136,7 @@ fn blank(shape: &SceneShape, density: Option<f64>, folder: &Path) -> Result<Blan
 }
 
 fn hull(points: &[Point3<f64>]) -> Result<Blank, SolidTrouble> {
-    let too_large = |x: &f64| !(x.abs() < LARGEST_COORDINATE);
+    let too_large = |x: &f64| x.is_nan() || x.abs() >= LARGEST_COORDINATE;
     if let Some(&value) = points.iter().flat_map(|point| point.iter()).find(|x| too_large(x)) {
         let allowed = format!("of a size below {LARGEST_COORDINATE:e} m");
         let field = "points";
@@ -193,13 +193,15 @@ fn clumped(
 fn mesh_vertices(folder: &Path, file: &str, scale: f64) -> Result<Vec<Point3<f64>>, SolidTrouble> {
     let fail = |reason: String| SolidTrouble::Mesh { file: file.to_owned(), reason };
     let bytes = std::fs::read(folder.join(file)).map_err(|e| fail(e.kind().to_string()))?;
-    let mut cursor = Cursor::new(bytes);
-    let triangles = stl_io::create_stl_reader(&mut cursor).map_err(|e| fail(e.to_string()))?;
+    stl_vertices(bytes, scale).map_err(|e| fail(e.to_string()))
+}
+
+/// Vertices of the triangles of an STL text, times `scale`.
+fn stl_vertices(bytes: Vec<u8>, scale: f64) -> std::io::Result<Vec<Point3<f64>>> {
     let mut vertices = Vec::new();
-    for triangle in triangles {
-        for vertex in triangle.map_err(|e| fail(e.to_string()))?.vertices {
-            let [x, y, z] = vertex.0.map(|c| f64::from(c) * scale);
-            vertices.push(Point3::new(x, y, z));
+    for triangle in stl_io::create_stl_reader(&mut Cursor::new(bytes))? {
+        for vertex in triangle?.vertices {
+            vertices.push(Point3::from(vertex.0.map(|c| f64::from(c) * scale)));
         }
     }
     Ok(vertices)
@@ -208,4 +210,36 @@ fn mesh_vertices(folder: &Path, file: &str, scale: f64) -> Result<Vec<Point3<f64
 fn positive(field: &'static str, values: &[f64]) -> Result<(), SolidTrouble> {
     let error = values.iter().find_map(|&value| ParameterError::positive(field, value));
     error.map_or(Ok(()), |error| Err(SolidTrouble::Parameter(error)))
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    const CORNER: &str = "solid corner\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n\
+        vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n\
+        vertex 0 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\nendsolid corner\n";
+
+    #[test]
+    fn the_hull_of_a_mesh_has_its_volume() {
+        let vertices = stl_vertices(CORNER.into(), 2.0).unwrap();
+        let blank = hull(&vertices).unwrap();
+        assert!((blank.unit.mass - 8.0 / 6.0).abs() < 1e-9, "{}", blank.unit.mass);
+    }
+
+    proptest! {
+        #[test]
+        fn no_mesh_makes_it_panic(at in 0..CORNER.len(), glyphs in r"[0-9a-z. \n+-]{0,9}", cut in 0usize..30) {
+            let mut text = CORNER.to_owned();
+            text.replace_range(at..(at + cut).min(CORNER.len()), &glyphs);
+            let _ = stl_vertices(text.into(), 1e300).map(|vertices| hull(&vertices).is_ok());
+        }
+
+        #[test]
+        fn no_bytes_make_it_panic(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
+            let _ = stl_vertices(bytes, 1.0).map(|vertices| hull(&vertices).is_ok());
+        }
+    }
 }

@@ -51,6 +51,18 @@ pub(crate) struct Found<'a> {
     pub(crate) depth: usize,
 }
 
+impl Found<'_> {
+    /// The part of the text to mark: the value, or its name if it has several lines.
+    pub(crate) fn place(&self, text: &str) -> Range<usize> {
+        let head = self.node.head(text);
+        let cut = head.len() == 1 && self.node.span.len() > 1;
+        match &self.key {
+            Some(key) if cut => key.clone(),
+            _ => head,
+        }
+    }
+}
+
 impl Node {
     /// The value at `path`, or the last one on the way to it.
     pub(crate) fn find(&self, text: &str, path: &[Segment]) -> Found<'_> {

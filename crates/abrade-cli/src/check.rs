@@ -1,0 +1,108 @@
+//! `abrade check`: what a scene holds and how large it is.
+
+use abrade::{ElasticLaw, FlowLaw, Lateral, Removal};
+use abrade_scene::scene::{Motion, Rotation, SceneBody, SceneShape, SceneSurface, Stop};
+use abrade_scene::{Checked, Solid, SurfaceSize};
+
+use crate::arguments::SceneArguments;
+use crate::failure::Failure;
+use crate::quantity_text::{digits, length, memory, time};
+
+/// Checks the scene and prints its size.
+pub(crate) fn check(arguments: &SceneArguments) -> Result<(), Failure> {
+    let checked = abrade_scene::load(&arguments.scene, &arguments.sets)?;
+    print!("{}", text(&checked));
+    Ok(())
+}
+
+fn text(checked: &Checked) -> String {
+    let (scene, size) = (&checked.scene, checked.size());
+    let mut rows = vec![row("scene", scene.name.clone())];
+    for (name, surface) in &scene.surfaces {
+        if let Some(size) = size.surfaces.get(name) {
+            rows.push(row("surface", format!("{name}: {}", surface_text(surface, size))));
+        }
+    }
+    for (name, body) in &scene.bodies {
+        if let Some(solid) = checked.solids.get(name) {
+            rows.push(row("body", format!("{name}: {}", body_text(body, solid))));
+        }
+    }
+    let run = &scene.run;
+    let stop = stop_text(&run.stop);
+    let accuracy = digits(run.accuracy);
+    rows.push(row("run", format!("until {stop}, {:?}, accuracy {accuracy}", run.resolve)));
+    rows.push(row("memory", format!("{} for the nodes", memory(size.memory))));
+    rows.push(row("time", format!("about {}, within a factor of ten", time(size.seconds))));
+    rows.extend(checked.notes.iter().map(|note| row("note", note.clone())));
+    rows.concat()
+}
+
+fn row(name: &str, text: String) -> String {
+    format!("{name:<8} {text}\n")
+}
+
+fn surface_text(surface: &SceneSurface, size: &SurfaceSize) -> String {
+    let flow = match surface.flow {
+        FlowLaw::CapozzaHanley { lateral: Lateral::Projected } => "CapozzaHanley(Projected)",
+        FlowLaw::CapozzaHanley { lateral: Lateral::Eq5 } => "CapozzaHanley(Eq5)",
+        FlowLaw::NormalPressure {} => "NormalPressure",
+    };
+    let elastic = match surface.elastic {
+        ElasticLaw::Foundation { .. } => "Foundation".to_owned(),
+        ElasticLaw::HertzNodes { convention, .. } => format!("HertzNodes({convention:?})"),
+        ElasticLaw::Rigid => "Rigid".to_owned(),
+    };
+    let removal = match surface.removal {
+        Removal::All => "all removed",
+        Removal::Fraction { .. } => "a fraction removed",
+        Removal::AttackAngle { .. } => "removed by attack angle",
+    };
+    format!(
+        "{} nodes ({} x {}, {} apart); {flow}, {elastic}, {removal}; {}",
+        size.nodes(),
+        size.columns,
+        size.rows,
+        length(size.pitch),
+        surface.material
+    )
+}
+
+fn body_text(body: &SceneBody, solid: &Solid) -> String {
+    let shape = match &body.shape {
+        SceneShape::Ball { .. } => "ball".to_owned(),
+        SceneShape::Cuboid { .. } => "cuboid".to_owned(),
+        SceneShape::Polyhedron { kind, .. } => format!("{kind:?}").to_lowercase(),
+        SceneShape::ConvexHull { .. } => "convex hull".to_owned(),
+        SceneShape::Clump { .. } => format!("clump of {} spheres", solid.shape.pieces().len()),
+    };
+    let motion = match &body.motion {
+        Motion::Impact { speed, angle, .. } => {
+            format!("impact at {} m/s, {} deg", digits(*speed), digits(angle.to_degrees()))
+        }
+        Motion::Free { velocity, .. } => {
+            let speed = velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
+            format!("free at {} m/s", digits(speed))
+        }
+        Motion::Drive { indent_to, distance, .. } => {
+            format!("driven to {} N over {}", digits(*indent_to), length(*distance))
+        }
+    };
+    let turned = match body.rotation {
+        Rotation::Random { seed } => format!(", turned at random (seed {seed})"),
+        _ => String::new(),
+    };
+    let mass = digits(solid.inertia.mass);
+    let reach = length(solid.shape.bounding_radius());
+    format!("{shape}, {mass} kg, reach {reach}{turned}; {motion}")
+}
+
+fn stop_text(stop: &Stop) -> String {
+    match stop {
+        Stop::AllRebounded => "all rebounded".into(),
+        Stop::FirstExit => "the first exit".into(),
+        Stop::Time { limit } => time(*limit),
+        Stop::Distance => "the distance is slid".into(),
+        Stop::Impacts { count } => format!("{count} impacts"),
+    }
+}

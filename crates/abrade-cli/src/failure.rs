@@ -1,0 +1,43 @@
+//! Why a command ended early, and its exit code.
+
+use std::io::IsTerminal;
+
+use abrade_scene::SceneError;
+
+use crate::render;
+
+/// Why a command ended early.
+pub(crate) enum Failure {
+    /// The scene is wrong.
+    Scene(SceneError),
+    /// Something else that was given is wrong.
+    Input(anyhow::Error),
+    /// The work itself failed.
+    Run(anyhow::Error),
+}
+
+impl Failure {
+    /// Exit code: 1 for work that failed, 2 for bad input.
+    pub(crate) fn exit_code(&self) -> u8 {
+        match self {
+            Self::Run(_) => 1,
+            Self::Scene(_) | Self::Input(_) => 2,
+        }
+    }
+
+    /// Says it on the standard error stream, in colour on a terminal.
+    pub(crate) fn print(&self) {
+        match self {
+            Self::Scene(error) => {
+                eprint!("{}", render::scene_error(error, std::io::stderr().is_terminal()));
+            }
+            Self::Input(error) | Self::Run(error) => eprintln!("error: {error:#}"),
+        }
+    }
+}
+
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        Self::Scene(error)
+    }
+}

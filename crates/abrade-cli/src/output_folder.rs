@@ -1,0 +1,34 @@
+//! The results folder: its name, and whether it can be written to, known before anything runs.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
+
+use crate::failure::Failure;
+
+/// Where the results of the scene called `name` go.
+pub(crate) fn chosen(out: Option<&Path>, name: &str) -> PathBuf {
+    match out {
+        Some(out) => out.to_owned(),
+        None => Path::new("runs").join(name),
+    }
+}
+
+/// Finds out by trying whether `folder` can be made and written to; leaves nothing behind.
+pub(crate) fn probe(folder: &Path) -> Result<(), Failure> {
+    let missing: Vec<&Path> = folder
+        .ancestors()
+        .take_while(|path| !path.as_os_str().is_empty() && !path.exists())
+        .collect();
+    let tried = std::fs::create_dir_all(folder).and_then(|()| {
+        let file = folder.join(format!(".abrade-{}", std::process::id()));
+        std::fs::write(&file, b"").and_then(|()| std::fs::remove_file(&file))
+    });
+    for path in missing {
+        // What was made here is empty again; what could not be made is not there.
+        let _ = std::fs::remove_dir(path);
+    }
+    tried
+        .with_context(|| format!("the output folder `{}` cannot be written to", folder.display()))
+        .map_err(Failure::Input)
+}

@@ -1,0 +1,48 @@
+//! `abrade schema`: the form of a scene file.
+
+use anyhow::Context;
+
+use crate::arguments::SchemaArguments;
+use crate::failure::Failure;
+
+/// Prints the JSON schema, or the field reference.
+pub(crate) fn schema(arguments: &SchemaArguments) -> Result<(), Failure> {
+    if arguments.fields {
+        print!("{}", fields());
+        return Ok(());
+    }
+    let text = serde_json::to_string_pretty(&abrade_scene::schema())
+        .context("the schema cannot be printed")
+        .map_err(Failure::Run)?;
+    println!("{text}");
+    Ok(())
+}
+
+fn fields() -> String {
+    let mut text = String::from(
+        "Fields of a scene: path, kind of value, unit of a bare number, default.\n\
+         <name> stands for any name, <i> for an index from 0.\n\n",
+    );
+    for field in abrade_scene::fields() {
+        let unit = bracketed(&field.unit);
+        let default = match field.default.as_str() {
+            "" => String::new(),
+            "required" => ", required".into(),
+            default => format!(", default {default}"),
+        };
+        let of = match field.variant.as_str() {
+            "" => String::new(),
+            variant => format!(" (of {variant})"),
+        };
+        text += &match field.kind.as_str() {
+            "variant" if field.path.contains(" = ") => format!("{}\n", field.path),
+            kind => format!("{}{of}: {kind}{unit}{default}\n", field.path),
+        };
+        text += &format!("    {}\n", field.meaning);
+    }
+    text
+}
+
+fn bracketed(unit: &str) -> String {
+    if unit.is_empty() { String::new() } else { format!(" [{unit}]") }
+}

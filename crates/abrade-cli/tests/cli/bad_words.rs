@@ -1,0 +1,211 @@
+//! Words that a scene does not have, and forms that are not RON: the whole message.
+
+use super::refused;
+
+#[test]
+fn a_misspelt_field() {
+    refused(
+        "a_misspelt_field",
+        &[("hardness", "hardnes")],
+        &[],
+        &[],
+        r#"error: unknown field `hardnes` in `materials.plate`
+ --> scene.ron:6:15
+  |
+6 |     "plate": (hardnes: "6.6 GPa", shear_ratio: 0.25, young: "200 GPa", poisson: 0.3, friction: 0.5),
+  |               ^^^^^^^ expected `hardness`, `shear_ratio`, `young`, `poisson` or `friction`
+  |
+  = help: did you mean `hardness`?
+
+scene.ron: 1 problem, nothing was run
+"#,
+    );
+}
+
+#[test]
+fn an_unknown_variant() {
+    refused(
+        "an_unknown_variant",
+        &[("Ball(radius", "Bal(radius")],
+        &[],
+        &[],
+        r#"error: `bodies.ball.shape` cannot be `Bal`
+  --> scene.ron:20:14
+   |
+20 |       shape: Bal(radius: "3 mm"),
+   |              ^^^ expected `Ball`, `Cuboid`, `Polyhedron`, `ConvexHull` or `Clump`
+   |
+   = help: did you mean `Ball`?
+
+scene.ron: 1 problem, nothing was run
+"#,
+    );
+}
+
+#[test]
+fn a_wrong_unit() {
+    refused(
+        "a_wrong_unit",
+        &[(r#""35 m/s""#, r#""35 mm""#)],
+        &[],
+        &[],
+        r#"error: `bodies.ball.motion.speed`: `mm` does not measure a speed
+  --> scene.ron:24:29
+   |
+24 |       motion: Impact(speed: "35 mm", angle: "45 deg"),
+   |                             ^^^^^^^ expected a speed in m/s, cm/s, mm/s or km/h
+
+scene.ron: 1 problem, nothing was run
+"#,
+    );
+}
+
+#[test]
+fn a_unit_in_the_wrong_case() {
+    refused(
+        "a_unit_in_the_wrong_case",
+        &[(r#""6.6 GPa""#, r#""6.6 Gpa""#)],
+        &[],
+        &[],
+        r#"error: `materials.plate.hardness`: `Gpa` does not measure a pressure
+ --> scene.ron:6:25
+  |
+6 |     "plate": (hardness: "6.6 Gpa", shear_ratio: 0.25, young: "200 GPa", poisson: 0.3, friction: 0.5),
+  |                         ^^^^^^^^^ expected a pressure in Pa, kPa, MPa or GPa
+  |
+  = help: did you mean `GPa`?
+
+scene.ron: 1 problem, nothing was run
+"#,
+    );
+}
+
+#[test]
+fn a_quoted_number_without_a_unit() {
+    refused(
+        "a_quoted_number_without_a_unit",
+        &[(r#""45 deg""#, r#""45""#)],
+        &[],
+        &[],
+        r#"error: `bodies.ball.motion.angle`: `45` has no unit
+  --> scene.ron:24:46
+   |
+24 |       motion: Impact(speed: "35 m/s", angle: "45"),
+   |                                              ^^^^ expected an angle in rad or deg
+
+scene.ron: 1 problem, nothing was run
+"#,
+    );
+}
+
+#[test]
+fn a_unit_without_quotes() {
+    refused(
+        "a_unit_without_quotes",
+        &[(r#""45 deg""#, "45 deg")],
+        &[],
+        &[],
+        r#"error: the scene is not RON
+  --> scene.ron:24:49
+   |
+24 |       motion: Impact(speed: "35 m/s", angle: 45 deg),
+   |                                                 ^ expected comma
+   |
+   = help: a number with a unit is quoted, as in "45 deg"
+
+scene.ron: 1 problem, nothing was run
+"#,
+    );
+}
+
+#[test]
+fn a_newer_version() {
+    refused(
+        "a_newer_version",
+        &[("version: 1", "version: 2")],
+        &[],
+        &[],
+        r#"error: the scene is of version 2, which is newer than this program
+ --> scene.ron:2:12
+  |
+2 |   version: 2,
+  |            ^ this program reads version 1
+
+scene.ron: 1 problem, nothing was run
+"#,
+    );
+}
+
+#[test]
+fn a_missing_field() {
+    refused(
+        "a_missing_field",
+        &[("density: 2500.0,", "")],
+        &[],
+        &[],
+        r#"error: nothing gives a mass to `bodies.ball`
+  --> scene.ron:19:5
+   |
+19 |     "ball": (
+   |     ^^^^^^ `density` must be given
+
+scene.ron: 1 problem, nothing was run
+"#,
+    );
+}
+
+#[test]
+fn a_variant_that_needs_parentheses() {
+    refused(
+        "a_variant_that_needs_parentheses",
+        &[("Foundation()", "Foundation")],
+        &[],
+        &[],
+        r#"error: `surfaces.plate.elastic` has the wrong form
+  --> scene.ron:13:16
+   |
+13 |       elastic: Foundation,
+   |                ^^^^^^^^^^ expected `Foundation(..)`
+
+scene.ron: 1 problem, nothing was run
+"#,
+    );
+}
+
+#[test]
+fn a_variant_that_has_none() {
+    refused(
+        "a_variant_that_has_none",
+        &[("motion: Fixed", "motion: Fixed()")],
+        &[],
+        &[],
+        r#"error: the scene is not RON
+  --> scene.ron:14:20
+   |
+14 |       motion: Fixed(),
+   |                    ^ expected comma
+   |
+   = help: this variant has no fields and is written without parentheses
+
+scene.ron: 1 problem, nothing was run
+"#,
+    );
+}
+
+#[test]
+fn an_unclosed_scene() {
+    refused(
+        "an_unclosed_scene",
+        &[("Report ],\n)", "Report ],\n")],
+        &[],
+        &[],
+        r#"error: the scene is not RON
+  --> scene.ron:29:81
+   |
+29 |   outputs: [ History(every: "1 us"), Surface(at: End), Picture, Energy, Report ],
+   |                                                                                 ^ unexpected end of RON
+
+scene.ron: 1 problem, nothing was run
+"#,
+    );
+}
