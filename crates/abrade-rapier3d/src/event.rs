@@ -82,9 +82,6 @@ pub enum Refusal {
     #[error("the body has no mass or no solid collider")]
     Massless,
     /// It lies in the surface already, as left by Rapier.
-    #[error("the body lies {depth:e} m inside the surface")]
-    Inside {
-        /// Largest overlap [m].
-        depth: f64,
-    },
+    #[error("the body lies inside the surface, as left by Rapier's contact")]
+    Inside,
 }

@@ -72,6 +72,20 @@ impl Course {
         Extent::of_path(&state.position, &state.velocity, &acceleration, dt).grown(self.radius)
     }
 
+    /// As [`Course::region`], in the frame of a surface with the given bounds, as far as the body
+    /// can get before it must have met the surface: no centre of mass gets below its lowest plane.
+    /// A body that may go over the surface's border is followed to the end.
+    pub fn region_before(&self, frame: &Isometry3<f64>, bounds: &Extent, dt: f64) -> Extent {
+        let state = self.state.seen_from(frame);
+        let pull = frame.inverse_transform_vector(&self.acceleration).z;
+        let time = time_to_fall(state.position.z - bounds.low.z, state.velocity.z, pull).min(dt);
+        let cut = self.region(frame, time);
+        match cut.is_over(bounds) {
+            true => cut.above(bounds.low.z),
+            false => self.region(frame, dt),
+        }
+    }
+
     /// Box around wherever the body may be flung over `dt` [s], in `frame`: no contact with a
     /// surface at rest makes it faster than its energy allows.
     fn reach(&self, frame: &Isometry3<f64>, dt: f64) -> Extent {
@@ -112,22 +126,37 @@ pub(crate) struct Way<'a> {
 }
 
 impl Way<'_> {
-    /// The obstacle on the body's `course` over `dt` [s], if there is one.
+    /// The obstacle on the body's `course` over `dt` [s] before it meets the surface, if there
+    /// is one.
     pub fn on_course(&self, course: &Course, dt: f64) -> Option<Refusal> {
-        self.within(&course.region(&self.frame, dt))
+        self.within(&course.region_before(&self.frame, &self.bounds, dt))
     }
 
     /// The obstacle that the body could reach in `dt` [s] whatever the contact does to it.
     pub fn in_reach(&self, course: &Course, dt: f64) -> Option<Refusal> {
-        self.within(&course.reach(&self.frame, dt))
+        let reach = course.reach(&self.frame, dt);
+        let over = reach.is_over(&self.bounds);
+        self.within(&if over { reach.above(self.bounds.low.z) } else { reach })
     }
 
     fn within(&self, region: &Extent) -> Option<Refusal> {
-        let region = region.above(&self.bounds);
         let own = self.rb.colliders();
-        let found = self.obstacles.in_way(self.body, own, &region, &self.frame, self.colliders);
+        let found = self.obstacles.in_way(self.body, own, region, &self.frame, self.colliders);
         found.map(|collider| Refusal::Obstructed { collider })
     }
+}
+
+/// Time in which a point at `height` [m] with upward `velocity` [m/s] under the upward
+/// acceleration `pull` [m/s2] gets to zero height; infinite if it does not.
+fn time_to_fall(height: f64, velocity: f64, pull: f64) -> f64 {
+    let root = velocity * velocity - 2.0 * pull * height;
+    // The stable form of the first positive root of height + velocity t + pull t^2 / 2.
+    let time = if velocity <= 0.0 {
+        2.0 * height / (-velocity + root.sqrt())
+    } else {
+        (-velocity - root.sqrt()) / pull
+    };
+    if time >= 0.0 { time } else { f64::INFINITY }
 }
 
 /// True when Rapier would let the body feel the proxy.

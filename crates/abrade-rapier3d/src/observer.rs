@@ -4,6 +4,8 @@ use abrade::{Instant, Observer, State};
 use nalgebra::{Isometry3, Vector3};
 use rapier::dynamics::RigidBodyHandle;
 
+use crate::path::Extent;
+
 /// An accepted contact step of one body.
 pub struct MicroStep<'a, 'b> {
     /// The body.
@@ -47,10 +49,13 @@ pub(crate) struct Relay<'a> {
     pub frame: Isometry3<f64>,
     /// Time of the embedder's step at which the call into the core began [s].
     pub began: f64,
+    /// Box around the centres of mass seen, in `frame`.
+    pub seen: Extent,
 }
 
 impl Observer for Relay<'_> {
     fn observe(&mut self, instant: &Instant<'_, '_>) {
+        self.seen.hold(&instant.state.position);
         self.observer.micro_step(&MicroStep {
             body: self.body,
             time: self.began + instant.time,

@@ -1,9 +1,10 @@
 //! Everything solid that is no wear surface, as it may stand in a body's way over a step.
 //! Collected only when a body comes near a wear surface.
 
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Point3};
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{Aabb, Collider, ColliderHandle, ColliderSet};
+use rapier::math::Pose;
 use rapier::parry::query::intersection_test;
 use rapier::parry::shape::Cuboid;
 
@@ -11,49 +12,55 @@ use crate::path::Extent;
 use crate::scalar;
 use crate::view::WorldView;
 
-/// A collider and how far it can get over the step.
+/// A collider, and the box within which it stays over the step.
 struct Obstacle {
     collider: ColliderHandle,
     body: Option<RigidBodyHandle>,
     extent: Extent,
-    /// Travel over the step [m].
-    travel: f64,
+    moves: bool,
 }
 
 /// The colliders of a step that bodies may run into.
 #[derive(Default)]
 pub(crate) struct Obstacles {
     list: Vec<Obstacle>,
-    collected: bool,
 }
 
 impl Obstacles {
     /// Forgets the last step's.
     pub fn clear(&mut self) {
         self.list.clear();
-        self.collected = false;
     }
 
-    /// Collects the solid colliders, `is_proxy` ones apart, unless that was done for this step.
+    /// Collects the solid colliders of a step, `is_proxy` ones apart.
+    /// `course` gives the box of bodies that are themselves on their way to a wear surface.
     pub fn collect(
         &mut self,
         world: &WorldView<'_>,
         dt: f64,
         is_proxy: impl Fn(ColliderHandle) -> bool,
+        course: impl Fn(RigidBodyHandle) -> Option<Extent>,
     ) {
-        if self.collected {
-            return;
-        }
-        self.collected = true;
         for (handle, collider) in world.colliders.iter_enabled() {
             if collider.is_sensor() || is_proxy(handle) {
                 continue;
             }
             let body = collider.parent();
             let parent = body.and_then(|handle| world.bodies.get(handle));
-            let travel = parent.map_or(0.0, |rb| travel(rb, collider, world, dt));
-            let extent = extent(&collider.compute_aabb()).grown(travel);
-            self.list.push(Obstacle { collider: handle, body, extent, travel });
+            let parent =
+                parent.filter(|rb| rb.is_dynamic() && !rb.is_sleeping() || rb.is_kinematic());
+            let standing = extent(&collider.compute_aabb());
+            let swept = || parent.map(|rb| swept(rb, &standing, world, dt));
+            let swept = body.and_then(&course).or_else(swept);
+            let (moves, extent) = (swept.is_some(), swept.unwrap_or(standing));
+            self.list.push(Obstacle { collider: handle, body, extent, moves });
+        }
+    }
+
+    /// Puts the box within which a body really stayed in place of the one it might have.
+    pub fn settle(&mut self, body: RigidBodyHandle, extent: Extent) {
+        for obstacle in self.list.iter_mut().filter(|o| o.body == Some(body)) {
+            obstacle.extent = extent;
         }
     }
 
@@ -70,13 +77,33 @@ impl Obstacles {
         let near = self.list.iter().filter(|o| o.body != Some(body) && o.extent.meets(&world_box));
         let mut solid = near.filter(|o| {
             colliders.get(o.collider).is_some_and(|other| {
-                let own = own.iter().filter_map(|&handle| colliders.get(handle));
-                let mut felt = own.filter(|mine| interact(mine, other));
-                felt.next().is_some() && overlaps(region, frame, o.travel, other)
+                let mut own = own.iter().filter_map(|&handle| colliders.get(handle));
+                own.any(|mine| interact(mine, other)) && o.meets(region, frame, other)
             })
         });
         solid.next().map(|o| o.collider)
     }
+}
+
+impl Obstacle {
+    /// Does the box `region` in `frame` touch the collider itself, or the box it stays in if it
+    /// moves? Shapes that Rapier cannot test count as touched.
+    fn meets(&self, region: &Extent, frame: &Isometry3<f64>, collider: &Collider) -> bool {
+        let (pose, cuboid) = cuboid(region, frame);
+        let test = match self.moves {
+            true => {
+                let (own_pose, own) = self::cuboid(&self.extent, &Isometry3::identity());
+                intersection_test(&pose, &cuboid, &own_pose, &own)
+            }
+            false => intersection_test(&pose, &cuboid, collider.position(), collider.shape()),
+        };
+        test.map_or(true, |found| found.intersecting)
+    }
+}
+
+fn cuboid(region: &Extent, frame: &Isometry3<f64>) -> (Pose, Cuboid) {
+    let centre = Isometry3::from(nalgebra::center(&region.low, &region.high));
+    (scalar::to_pose(&(frame * centre)), Cuboid::new(scalar::to_vector(&region.half())))
 }
 
 /// Would Rapier solve a contact between the two?
@@ -87,39 +114,26 @@ pub(crate) fn interact(a: &Collider, b: &Collider) -> bool {
         && a.solver_groups().test(b.solver_groups())
 }
 
-/// Does the box touch the collider itself, grown by its travel? Shapes that Rapier cannot test
-/// count as touched.
-fn overlaps(region: &Extent, frame: &Isometry3<f64>, travel: f64, other: &Collider) -> bool {
-    let half = region.half() + Vector3::repeat(travel);
-    let centre = Isometry3::from(nalgebra::center(&region.low, &region.high));
-    let pose = scalar::to_pose(&(frame * centre));
-    let cuboid = Cuboid::new(scalar::to_vector(&half));
-    let test = intersection_test(&pose, &cuboid, other.position(), other.shape());
-    test.map_or(true, |found| found.intersecting)
-}
-
-/// Farthest that a point of the collider can move over the step [m].
-fn travel(body: &RigidBody, collider: &Collider, world: &WorldView<'_>, dt: f64) -> f64 {
-    let extent = extent(&collider.compute_aabb());
+/// The box within which a collider that now fills `standing` stays over the step, as long as its
+/// body meets nothing.
+fn swept(body: &RigidBody, standing: &Extent, world: &WorldView<'_>, dt: f64) -> Extent {
     let centre = scalar::vector(body.center_of_mass());
-    let arm = (extent.low.coords - centre).abs().sup(&(extent.high.coords - centre).abs()).norm();
-    let turn = |angle: f64| arm * angle.min(2.0);
-    if body.is_dynamic() && !body.is_sleeping() {
-        let mass = scalar::wide(body.mass()).max(f64::MIN_POSITIVE);
-        let gravity = scalar::vector(world.gravity) * scalar::wide(body.gravity_scale());
-        let pull = (gravity + scalar::vector(body.user_force()) / mass).norm();
-        let speed = scalar::vector(body.linvel()).norm();
-        let spin = scalar::vector(body.angvel()).norm();
-        return speed * dt + 0.5 * pull * dt * dt + turn(spin * dt);
-    }
+    let arm = (standing.low.coords - centre).abs().sup(&(standing.high.coords - centre).abs());
+    let turn = |angle: f64| arm.norm() * angle.min(2.0);
+    let angle = scalar::vector(body.angvel()).norm() * dt;
+    let velocity = scalar::vector(body.linvel());
     if body.is_kinematic() {
         let step = scalar::pose(body.position()).inverse() * scalar::pose(body.next_position());
-        let speed = scalar::vector(body.linvel()).norm();
-        let spin = scalar::vector(body.angvel()).norm();
         let set = step.translation.vector.norm() + turn(step.rotation.angle());
-        return set.max(speed * dt + turn(spin * dt));
+        return standing.grown(set.max(velocity.norm() * dt + turn(angle)));
     }
-    0.0
+    let mass = scalar::wide(body.mass()).max(f64::MIN_POSITIVE);
+    let pull = scalar::vector(world.gravity) * scalar::wide(body.gravity_scale())
+        + scalar::vector(body.user_force()) / mass;
+    let path = Extent::of_path(&Point3::origin(), &velocity, &pull, dt);
+    let low = standing.low + path.low.coords;
+    let high = standing.high + path.high.coords;
+    Extent { low, high }.grown(turn(angle))
 }
 
 pub(crate) fn extent(aabb: &Aabb) -> Extent {

@@ -47,16 +47,22 @@ impl Extent {
         (self.high - self.low) / 2.0
     }
 
-    /// The part above the lowest plane z of `surface`, where this box lies within its borders: a
-    /// body cannot pass through a surface. Over a border nothing is cut off.
-    pub fn above(&self, surface: &Self) -> Self {
-        let within =
-            (0..2).all(|a| surface.low[a] <= self.low[a] && self.high[a] <= surface.high[a]);
+    /// Does this box lie within the borders, in x and y, of `surface`?
+    pub fn is_over(&self, surface: &Self) -> bool {
+        (0..2).all(|a| surface.low[a] <= self.low[a] && self.high[a] <= surface.high[a])
+    }
+
+    /// The part above the plane `z` [m]: what lies below a surface is behind it.
+    pub fn above(&self, z: f64) -> Self {
         let mut cut = *self;
-        if within {
-            cut.low.z = cut.low.z.max(surface.low.z).min(cut.high.z);
-        }
+        cut.low.z = cut.low.z.max(z).min(cut.high.z);
         cut
+    }
+
+    /// This box made to hold `point`.
+    pub fn hold(&mut self, point: &Point3<f64>) {
+        self.low = self.low.inf(point);
+        self.high = self.high.sup(point);
     }
 }
 

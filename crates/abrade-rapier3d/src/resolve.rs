@@ -10,6 +10,7 @@ use crate::event::{Refusal, WearEvent};
 use crate::gate::{self, Course, Way};
 use crate::micro::Errand;
 use crate::observer::{Relay, WearObserver};
+use crate::path::Extent;
 use crate::shadow;
 use crate::surface::SurfaceId;
 use crate::tracked::{Known, Live, Tracked};
@@ -52,8 +53,10 @@ impl WearWorld {
         self.closed += tracked.end(&mut self.events);
         match left {
             // Rapier's contacts overlap: only a state that was given exactly is an error.
-            Left::Failed(PhysicsError::StartsInside { depth }) if !exact => {
-                self.refuse(handle, surface, Refusal::Inside { depth });
+            Left::Failed(PhysicsError::StartsInside { .. } | PhysicsError::StepVanished { .. })
+                if !exact =>
+            {
+                self.refuse(handle, surface, Refusal::Inside);
             }
             Left::Refused(reason) => self.refuse(handle, surface, reason),
             Left::Failed(error) => self.fail(handle, surface, error),
@@ -95,9 +98,6 @@ impl WearWorld {
         let anchor = tracked.live.as_ref().map_or(surface, |live| live.surfaces[0]);
         let Some(lie) = self.lies.iter().find(|lie| lie.id == anchor) else { return Ok(()) };
         let (frame, bounds) = (lie.pose, self.surfaces[anchor.0].bounds);
-        let surfaces = &self.surfaces;
-        let is_proxy = |collider| surfaces.iter().any(|worn| worn.proxy == collider);
-        self.obstacles.collect(world, dt, is_proxy);
         let (colliders, obstacles) = (world.colliders, &self.obstacles);
         let way = Way { body: handle, rb, colliders, obstacles, frame, bounds };
         let gravity: Vector3<f64> = crate::scalar::vector(world.gravity);
@@ -112,9 +112,10 @@ impl WearWorld {
             tracked.live = Some(Live::new(body, &tracked.near, &self.surfaces, settings)?);
         }
         let Some(live) = &mut tracked.live else { return Ok(()) };
+        let seen = Extent { low: state.position, high: state.position };
         let loads = gate::loads(rb, &gravity, &frame);
         let errand = Errand { way, loads, dt, until };
-        let mut relay = Relay { observer, body: handle, frame, began: 0.0 };
+        let mut relay = Relay { observer, body: handle, frame, began: 0.0, seen };
         let before: Vec<f64> = displaced(live, &self.surfaces).collect();
         let advance = live.carry(body, &mut self.surfaces, &self.lies, &errand, &mut relay)?;
         let after = displaced(live, &self.surfaces);
@@ -131,6 +132,8 @@ impl WearWorld {
             self.current.dt = advance.time;
             self.current.exited = Some(handle);
         }
+        let stayed = relay.seen.grown(body.shape.bounding_radius()).placed_by(&frame);
+        self.obstacles.settle(handle, stayed);
         // What follows an exit is another encounter, with a first exit of its own.
         if advance.exited && !live.encounter.in_contact() {
             self.closed += tracked.end(&mut self.events);

@@ -71,6 +71,7 @@ impl WearWorld {
         let gravity = scalar::vector(world.gravity);
         if !self.surfaces.is_empty() && self.current.dt > 0.0 {
             self.choose(&mut world, &gravity);
+            self.collect_obstacles(&world);
             let single = self.single_registered();
             self.candidates
                 .sort_by_key(|&handle| (Some(handle) != single, handle.into_raw_parts()));
@@ -124,9 +125,25 @@ impl WearWorld {
         self.events.clear();
         self.integrated.clear();
         self.steered.clear();
-        self.candidates.clear();
+        for handle in self.candidates.drain(..) {
+            Tracked::slot(&mut self.bodies, handle).course = None;
+        }
         self.taken.clear();
         self.obstacles.clear();
+    }
+
+    /// What the bodies near a surface may run into, each other included.
+    fn collect_obstacles(&mut self, world: &WorldView<'_>) {
+        if self.candidates.is_empty() {
+            return;
+        }
+        let (surfaces, bodies) = (&self.surfaces, &self.bodies);
+        let is_proxy = |collider| surfaces.iter().any(|worn| worn.proxy == collider);
+        let course = |body: RigidBodyHandle| {
+            let slot = bodies.get(body.into_raw_parts().0 as usize)?.as_ref()?;
+            slot.course.filter(|_| slot.handle == body)
+        };
+        self.obstacles.collect(world, self.current.dt, is_proxy, course);
     }
 
     /// The one body whose first exit may end a step.
@@ -167,7 +184,12 @@ impl WearWorld {
             if lost || tracked.near.is_empty() {
                 self.closed += tracked.end(&mut self.events);
             }
-            if !tracked.near.is_empty() {
+            let lie = tracked.near.first().and_then(|id| self.lies.iter().find(|l| l.id == *id));
+            tracked.course = lie.map(|lie| {
+                let bounds = &self.surfaces[lie.id.0].bounds;
+                course.region_before(&lie.pose, bounds, self.current.dt).placed_by(&lie.pose)
+            });
+            if lie.is_some() {
                 self.candidates.push(handle);
             }
         }

@@ -9,6 +9,7 @@ use rapier::math::Vector;
 use crate::derive::{self, Print};
 use crate::event::{Refusal, WearEvent};
 use crate::gate::Lie;
+use crate::path::Extent;
 use crate::shadow::{self, Shadow};
 use crate::surface::SurfaceId;
 
@@ -24,6 +25,8 @@ pub(crate) struct Tracked {
     pub live: Option<Live>,
     /// Surfaces that it comes near in the step under way.
     pub near: Vec<SurfaceId>,
+    /// Box around its course to the first of them, in the world.
+    pub course: Option<Extent>,
     prints: Vec<Print>,
     com: Option<Vector>,
 }
@@ -35,7 +38,7 @@ pub(crate) enum Known {
     /// There is none.
     Refused(Refusal),
     /// Its state is set anew for every step.
-    Ready(Body),
+    Ready(Box<Body>),
 }
 
 /// A running encounter.
@@ -68,6 +71,7 @@ impl Tracked {
             shadow: None,
             live: None,
             near: Vec::new(),
+            course: None,
             prints: Vec::new(),
             com: None,
         }
@@ -90,14 +94,14 @@ impl Tracked {
     pub fn register(&mut self, body: Body) {
         self.registered = true;
         self.radius = body.shape.bounding_radius();
-        self.known = Known::Ready(body);
+        self.known = Known::Ready(Box::new(body));
     }
 
     /// True when colliders or the centre of mass have changed since the body was derived.
     pub fn is_stale(&self, rb: &RigidBody, colliders: &ColliderSet) -> bool {
-        !self.registered
-            && !(self.com == Some(rb.local_center_of_mass())
-                && derive::prints(rb, colliders).eq(self.prints.iter().copied()))
+        let same = self.com == Some(rb.local_center_of_mass())
+            && derive::prints(rb, colliders).eq(self.prints.iter().copied());
+        !(self.registered || same)
     }
 
     /// Forgets what was derived.
@@ -124,7 +128,8 @@ impl Tracked {
             self.known = match derive::shape(rb, colliders).and_then(|s| Ok((s, inertia?))) {
                 Ok((shape, inertia)) => {
                     let state = State::at(Point3::origin());
-                    Known::Ready(Body { shape, inertia, state, rotation_locked: false })
+                    let body = Body { shape, inertia, state, rotation_locked: false };
+                    Known::Ready(Box::new(body))
                 }
                 Err(refusal) => Known::Refused(refusal),
             };

@@ -160,3 +160,22 @@ fn a_plate_that_was_moved_away_is_out_of_reach() {
     assert_eq!(rig.wear.counters().micro, 0);
     assert!(scalar::vector(rig.world.bodies[ball].translation()).z < -0.01);
 }
+
+/// Fails for a gate that takes a fast body for being everywhere it could fly to: bodies that
+/// strike side by side in one step of a game are each resolved, and each as on its own.
+#[test]
+fn bodies_that_strike_side_by_side_are_all_resolved() {
+    let v = towards_plate(35.0, 45.0);
+    let strike = |spots: &[f64]| {
+        let mut rig = Rig::new(Vector3::zeros(), 1.0 / 60.0);
+        for x in spots {
+            rig.ball(Vector3::new(*x, 0.0, RADIUS + GAP), v);
+        }
+        rig.step();
+        assert_eq!((refusals(&rig), rig.wear.counters().micro), (vec![], spots.len() as u64));
+        rig.wear[rig.plate].wear_volume()
+    };
+    let (one, other) = (strike(&[-6e-3]), strike(&[6e-3]));
+    let both = strike(&[-6e-3, 6e-3]);
+    assert!((both / (one + other) - 1.0).abs() < 1e-12, "{both:e} of {one:e} + {other:e}");
+}

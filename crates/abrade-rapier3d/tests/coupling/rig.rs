@@ -41,7 +41,7 @@ pub fn surface() -> Surface {
         flow: FlowLaw::CapozzaHanley { lateral: Lateral::Projected },
         removal: Removal::All,
     };
-    let strip = HexStrip { length: 10e-3, width: 8e-3, pitch: 0.1e-3, rest_area: None };
+    let strip = HexStrip { length: 30e-3, width: 12e-3, pitch: 0.1e-3, rest_area: None };
     Surface::hex_strip(strip, laws).expect("a plate")
 }
 
@@ -52,7 +52,7 @@ impl Rig {
         world.integration_parameters.dt = scalar::narrow(dt);
         let h = scalar::narrow(HALF_THICKNESS);
         let below = scalar::to_vector(&(origin - Vector3::z() * HALF_THICKNESS));
-        let cuboid = ColliderBuilder::cuboid(scalar::narrow(5e-3), scalar::narrow(4e-3), h);
+        let cuboid = ColliderBuilder::cuboid(scalar::narrow(15e-3), scalar::narrow(6e-3), h);
         let proxy = world.colliders.insert(cuboid.translation(below));
         let mut wear = WearWorld::new(WearSettings { ledger: true, ..WearSettings::default() });
         let plate = wear.insert_on_top(surface(), proxy, &mut world.colliders).expect("a proxy");
