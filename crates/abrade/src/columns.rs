@@ -380,9 +380,13 @@ impl Columns {
         let mean = 0.5 * self.stiffness * slot.area * (before + after) / cosine;
         let moved = (step.motion.velocity + step.motion.spin.cross(&arm)) * step.motion.dt;
         let displacement = span.deep_normal.dot(&moved);
-        let force = if (flows || before == 0.0) && displacement > 0.0 {
-            // Part of the step only: what the spring stored over what the face advanced.
-            (change / displacement).clamp(0.0, mean)
+        let in_part = flows || before == 0.0 || after == 0.0;
+        let force = if in_part && change * displacement > 0.0 {
+            // Loaded or released in a part of the step: what the spring took or gave over what
+            // the face advanced.
+            (change / displacement).min(mean)
+        } else if in_part {
+            0.0
         } else {
             mean
         };

@@ -22,7 +22,7 @@ pub struct EncounterSettings {
 
 impl Default for EncounterSettings {
     fn default() -> Self {
-        Self { accuracy: 1e-3, ledger: false, step_limit: 50_000_000 }
+        Self { accuracy: 1e-3, ledger: false, step_limit: 5_000_000 }
     }
 }
 

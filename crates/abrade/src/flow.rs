@@ -161,19 +161,16 @@ impl Flow for NormalPressure {
         &self,
         node: &NodeStep<'_, E, Q>,
         start: &Loaded,
-        advance: &Advance,
+        _: &Advance,
         _: &Spring,
     ) -> (Drop, Loaded) {
         let excess = |k: &Loaded| k.normal_force - node.area * self.hardness / k.cosine.max(STEEP);
         if start.cosine <= STEEP || excess(start) <= 0.0 {
             return (Drop::default(), *start);
         }
-        let whole = if advance.was_in_contact {
-            advance.overlap_change
-        } else {
-            advance.share * start.touch.contact_normal.dot(&advance.step)
-        };
-        let (normal, now) = node.sink(0.0, start, (whole / start.cosine).max(0.0), excess);
+        // No bound by the advance: H per volume is the law, also where the face turns on a node.
+        let out_of_contact = start.touch.overlap / start.cosine;
+        let (normal, now) = node.sink(0.0, start, out_of_contact, excess);
         (Drop { normal, lateral: 0.0 }, now)
     }
 

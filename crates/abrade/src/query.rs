@@ -107,33 +107,33 @@ impl HullQuery {
         Self { planes: planes.iter().map(place).collect(), coefficient }
     }
 
-    /// The face at the deep end of the node's line, and the overlap with it; None when the node
-    /// is outside.
-    fn touch(
-        &self,
-        x: &Point3<f64>,
-        n: &Vector3<f64>,
-        state_position: &Point3<f64>,
-    ) -> Option<Touch> {
-        let mut deep: Option<(f64, &Plane, f64)> = None;
+    /// The face at the deep end of the node's line and the overlap with it; of a node outside,
+    /// the face it is farthest from.
+    fn touch(&self, x: &Point3<f64>, n: &Vector3<f64>, position: &Point3<f64>) -> Touch {
+        let mut outside: Option<(f64, &Plane)> = None;
+        let mut deep: Option<(f64, &Plane)> = None;
         for plane in &self.planes {
             let inside = plane.offset - plane.normal.dot(&x.coords);
-            if inside <= 0.0 {
-                return None;
+            if inside <= outside.map_or(0.0, |(least, _)| least) {
+                outside = Some((inside, plane));
             }
             let down = -plane.normal.dot(n);
-            if down > 0.0 && deep.is_none_or(|(reach, ..)| inside < reach * down) {
-                deep = Some((inside / down, plane, inside));
+            if down > 0.0 && deep.is_none_or(|(reach, _)| inside < reach * down) {
+                deep = Some((inside / down, plane));
             }
         }
-        deep.map(|(_, plane, overlap)| Touch {
+        let face = outside.or(deep).map(|(_, plane)| *plane);
+        // A closed hull has a face below any line; the fallback is never in contact.
+        let plane = face.unwrap_or(Plane { normal: -n, offset: f64::NEG_INFINITY });
+        let overlap = plane.offset - plane.normal.dot(&x.coords);
+        Touch {
             overlap,
             contact_normal: plane.normal,
-            arm: x + plane.normal * overlap - state_position,
+            arm: x + plane.normal * overlap - position,
             coefficient: self.coefficient,
             literal_cosine: -plane.normal.dot(n),
             radius: f64::INFINITY,
-        })
+        }
     }
 }
 
@@ -148,21 +148,12 @@ pub(crate) struct ClumpQuery {
 impl Query for ClumpQuery {
     fn touch(&self, x: &Point3<f64>, n: &Vector3<f64>) -> Touch {
         let balls = self.balls.iter().map(|ball| ball.touch(x, n));
-        let hulls = self.hulls.iter().filter_map(|hull| hull.touch(x, n, &self.position));
+        let hulls = self.hulls.iter().map(|hull| hull.touch(x, n, &self.position));
         let pressure = |touch: &Touch| touch.coefficient * touch.overlap;
-        let outside = Touch {
-            overlap: -1.0,
-            contact_normal: -n,
-            arm: Vector3::zeros(),
-            coefficient: 1.0,
-            literal_cosine: 1.0,
-            radius: f64::INFINITY,
-        };
-        balls.chain(hulls).fold(outside, |best, touch| {
-            let deeper =
-                touch.overlap > 0.0 && (best.overlap <= 0.0 || pressure(&touch) > pressure(&best));
-            if deeper { touch } else { best }
-        })
+        let deepest = balls.chain(hulls).reduce(|best, touch| {
+            if pressure(&touch) > pressure(&best) { touch } else { best }
+        });
+        deepest.expect("a shape has at least one piece")
     }
 
     fn near(&self, _: &Point3<f64>) -> bool {
