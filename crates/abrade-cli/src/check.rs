@@ -7,12 +7,12 @@ use abrade_scene::{Checked, Solid, SurfaceSize};
 use crate::arguments::SceneArguments;
 use crate::failure::Failure;
 use crate::quantity_text::{digits, length, memory, time};
+use crate::say::say;
 
 /// Checks the scene and prints its size.
 pub(crate) fn check(arguments: &SceneArguments) -> Result<(), Failure> {
     let checked = abrade_scene::load(&arguments.scene, &arguments.sets)?;
-    print!("{}", text(&checked));
-    Ok(())
+    say(&text(&checked))
 }
 
 fn text(checked: &Checked) -> String {

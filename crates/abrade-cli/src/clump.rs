@@ -6,6 +6,7 @@ use anyhow::{Context, anyhow};
 use crate::arguments::{ClumpArguments, ConvertFormat};
 use crate::failure::Failure;
 use crate::quantity_text::digits;
+use crate::say::say;
 
 /// Prints what there is to say about the file, and converts it if asked to.
 pub(crate) fn clump(arguments: &ClumpArguments) -> Result<(), Failure> {
@@ -19,7 +20,7 @@ pub(crate) fn clump(arguments: &ClumpArguments) -> Result<(), Failure> {
     let file = clump::read(&arguments.file).map_err(|error| Failure::Input(error.into()))?;
     let file = file.scaled(arguments.scale);
     let report = file.report().map_err(|error| Failure::Input(error.into()))?;
-    print!("{}", text(&file, &report, arguments.density));
+    say(&text(&file, &report, arguments.density))?;
     if let (Some(format), Some(out)) = (arguments.convert, &arguments.out) {
         let format = match format {
             ConvertFormat::Xyzr => Format::Xyzr,
@@ -31,7 +32,7 @@ pub(crate) fn clump(arguments: &ClumpArguments) -> Result<(), Failure> {
         std::fs::write(out, text)
             .with_context(|| format!("`{}` cannot be written", out.display()))
             .map_err(Failure::Input)?;
-        println!("written   {} ({})", out.display(), format.name());
+        say(&format!("written   {} ({})\n", out.display(), format.name()))?;
     }
     Ok(())
 }

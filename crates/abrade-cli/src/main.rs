@@ -13,6 +13,7 @@ mod output_folder;
 mod quantity_text;
 mod render;
 mod run;
+mod say;
 mod schema;
 
 use std::process::ExitCode;

@@ -4,18 +4,17 @@ use anyhow::Context;
 
 use crate::arguments::SchemaArguments;
 use crate::failure::Failure;
+use crate::say::say;
 
 /// Prints the JSON schema, or the field reference.
 pub(crate) fn schema(arguments: &SchemaArguments) -> Result<(), Failure> {
     if arguments.fields {
-        print!("{}", fields());
-        return Ok(());
+        return say(&fields());
     }
     let text = serde_json::to_string_pretty(&abrade_scene::schema())
         .context("the schema cannot be printed")
         .map_err(Failure::Run)?;
-    println!("{text}");
-    Ok(())
+    say(&(text + "\n"))
 }
 
 fn fields() -> String {

@@ -4,6 +4,7 @@
 //! `load` -> [`Checked`] -> [`Checked::build`] -> [`Built`].
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
+#![allow(rustdoc::broken_intra_doc_links, reason = "units stand in brackets")]
 
 mod build;
 mod check;

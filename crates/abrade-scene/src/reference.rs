@@ -50,11 +50,11 @@ impl<'a> Walk<'a> {
             let path = if path.is_empty() { name.clone() } else { format!("{path}.{name}") };
             let target = self.resolved(field);
             let (meaning, unit) = unit_of(&description(field, target));
+            let (meaning, stated) = default_of(&meaning);
             let default = match (field.get("default"), required.contains(&name.as_str())) {
                 (_, true) => "required".to_owned(),
-                (Some(Value::Null), _) => String::new(),
-                (Some(value), _) => value.to_string(),
-                (None, false) => default_of(&meaning),
+                (Some(value), _) if !value.is_null() && stated.is_empty() => value.to_string(),
+                _ => stated,
             };
             let kind = self.kind(field);
             let variant = variant.to_owned();
@@ -194,13 +194,23 @@ fn unit_of(description: &str) -> (String, String) {
     }
 }
 
-/// The default that the meaning states as `(default ..)`.
-fn default_of(meaning: &str) -> String {
-    let stated = meaning.split("(default").nth(1);
-    let default = stated.and_then(|rest| rest.split_once(')').map(|(default, _)| default));
-    let whole = stated.and_then(|rest| rest.split("`").nth(1));
-    let default = whole.or(default).unwrap_or_default();
-    default.trim_start_matches(':').trim().to_owned()
+/// The meaning without the default that it states as `(default ..)`, and that default.
+fn default_of(meaning: &str) -> (String, String) {
+    let Some((before, rest)) = meaning.split_once(" (default") else {
+        return (meaning.to_owned(), String::new());
+    };
+    let mut depth = 1;
+    let end = rest.find(|c| {
+        depth += match c {
+            '(' => 1,
+            ')' => -1,
+            _ => 0,
+        };
+        depth == 0
+    });
+    let (stated, after) = rest.split_at(end.unwrap_or(rest.len()));
+    let default = stated.trim_start_matches(':').trim().trim_matches('`');
+    (format!("{before}{}", after.strip_prefix(')').unwrap_or(after)), default.to_owned())
 }
 
 #[cfg(test)]

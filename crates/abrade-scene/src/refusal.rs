@@ -47,8 +47,11 @@ fn syntax_help(text: &str, at: usize, code: &Error) -> Option<&'static str> {
     if number && after.starts_with(char::is_alphabetic) {
         return Some("a number with a unit is quoted, as in \"45 deg\"");
     }
-    let empty = after.strip_prefix('(').is_some_and(|rest| rest.trim_start().starts_with(')'));
-    empty.then_some("this variant has no fields and is written without parentheses")
+    let inside = after.strip_prefix('(')?.trim_start();
+    Some(match inside.starts_with(')') {
+        true => "this variant has no fields and is written without parentheses",
+        false => "this variant has no fields",
+    })
 }
 
 /// A value that does not fit its place at `path`.

@@ -70,8 +70,6 @@ fn shape() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
-
     #[test]
     fn any_value_in_any_place(sets in prop::collection::vec((path(), value()), 1..4)) {
         let sets: Vec<_> = sets.iter().map(|(path, value)| format!("{path}={value}")).collect();

@@ -1,0 +1,18 @@
+//! Text for the standard output stream.
+
+use std::io::{ErrorKind, Write};
+
+use anyhow::Context;
+
+use crate::failure::Failure;
+
+/// Prints `text`. A reader that has gone, as in `abrade schema | head`, is no fault.
+pub(crate) fn say(text: &str) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(error).context("the output cannot be written").map_err(Failure::Run)
+        }
+        _ => Ok(()),
+    }
+}
