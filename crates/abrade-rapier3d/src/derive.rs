@@ -164,3 +164,50 @@ fn hull(
     let (hull, _, shift): (Hull, Inertia, Vector3<f64>) = Hull::solid(&corners, 1.0)?;
     Ok(Piece::Hull(hull.moved(&shift)))
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+    use rapier::dynamics::RigidBodyBuilder;
+    use rapier::geometry::{ColliderBuilder, SharedShape};
+    use rapier::pipeline::PhysicsWorld;
+
+    use super::*;
+
+    /// Fails for pieces about the wrong point, a compound that is not opened, a sensor that is
+    /// taken for solid, and a radius that a corner sticks out of.
+    #[test]
+    fn pieces_lie_about_the_centre_of_mass() {
+        let mut world = PhysicsWorld::default();
+        let n = scalar::narrow;
+        let at = |x: f64| scalar::to_pose(&Isometry3::from(Vector3::new(x, 0.0, 0.0)));
+        let (body, _) = world.insert(
+            RigidBodyBuilder::dynamic(),
+            ColliderBuilder::cuboid(n(1.0), n(1.0), n(1.0)).position(at(0.0)),
+        );
+        let part = (at(1.0), SharedShape::cuboid(n(1.0), n(1.0), n(1.0)));
+        let second = ColliderBuilder::compound(vec![part]).position(at(3.0));
+        world.insert_collider(second, Some(body));
+        let sensor = ColliderBuilder::ball(n(9.0)).sensor(true).density(n(0.0));
+        world.insert_collider(sensor, Some(body));
+        let rb = &mut world.bodies[body];
+        rb.recompute_mass_properties_from_colliders(&world.colliders);
+        let rb = &world.bodies[body];
+        let shape = shape(rb, &world.colliders).expect("a shape");
+        let centres: Vec<f64> = shape
+            .pieces()
+            .iter()
+            .filter_map(|piece| match piece {
+                Piece::Hull(hull) => Some(hull.vertices().iter().map(|v| v.x).sum::<f64>() / 8.0),
+                Piece::Ball(_) => None,
+            })
+            .collect();
+        assert!((centres[0] + 2.0).abs() < 1e-6 && (centres[1] - 2.0).abs() < 1e-6, "{centres:?}");
+        let radius = radius(rb, &world.colliders);
+        assert!((radius - 11f64.sqrt()).abs() < 1e-5 && shape.bounding_radius() <= radius + 1e-9);
+        let inertia = inertia(rb).expect("a mass");
+        assert!((inertia.mass - 16.0).abs() < 1e-4);
+        let across = 8.0 * (2.0 / 3.0) * 2.0 + 16.0 * 4.0;
+        assert!((inertia.tensor[(1, 1)] - across).abs() < 1e-3 * across, "{}", inertia.tensor);
+    }
+}

@@ -31,6 +31,7 @@ mod micro;
 mod observer;
 mod obstacle;
 mod path;
+mod register;
 mod resolve;
 pub mod scalar;
 mod settings;

@@ -2,7 +2,6 @@
 //! Rapier with a reason. Other resolvers take their place here, between the two.
 
 use abrade::{PhysicsError, Until};
-use nalgebra::Vector3;
 use rapier::dynamics::RigidBodyHandle;
 
 use crate::error::WearError;
@@ -11,11 +10,11 @@ use crate::gate::{self, Course, Way};
 use crate::micro::Errand;
 use crate::observer::{Relay, WearObserver};
 use crate::path::Extent;
-use crate::shadow;
-use crate::surface::SurfaceId;
+use crate::surface::{SurfaceId, WornCollider};
 use crate::tracked::{Known, Live, Tracked};
 use crate::view::WorldView;
 use crate::world::{Integrated, WearWorld};
+use crate::{scalar, shadow};
 
 /// Why a body was left to Rapier.
 enum Left {
@@ -100,7 +99,7 @@ impl WearWorld {
         let (frame, bounds) = (lie.pose, self.surfaces[anchor.0].bounds);
         let (colliders, obstacles) = (world.colliders, &self.obstacles);
         let way = Way { body: handle, rb, colliders, obstacles, frame, bounds };
-        let gravity: Vector3<f64> = crate::scalar::vector(world.gravity);
+        let gravity = scalar::vector(world.gravity);
         if let Some(refusal) = way.on_course(&Course::of(rb, tracked, &gravity), dt) {
             return Err(refusal.into());
         }
@@ -119,14 +118,10 @@ impl WearWorld {
         let before: Vec<f64> = displaced(live, &self.surfaces).collect();
         let advance = live.carry(body, &mut self.surfaces, &self.lies, &errand, &mut relay)?;
         let after = displaced(live, &self.surfaces);
-        let worn: Vec<(SurfaceId, f64)> = std::iter::zip(live.surfaces.iter().copied(), before)
-            .zip(after)
-            .map(|((id, before), after)| (id, after - before))
-            .collect();
+        let gained = after.zip(before).map(|(after, before)| after - before);
+        let worn: Vec<_> = live.surfaces.iter().copied().zip(gained).collect();
         live.book(handle, &advance, &worn, &frame, &mut self.events);
-        self.counters.micro += 1;
-        self.counters.steps += advance.steps;
-        self.counters.node_evaluations += advance.node_evaluations;
+        self.counters.add(&advance);
         self.integrated.push(Integrated { body: handle, end: body.state, frame });
         if advance.exited && until == Until::FirstExit {
             self.current.dt = advance.time;
@@ -143,9 +138,6 @@ impl WearWorld {
 }
 
 /// Volume displaced so far on each surface of the encounter [m3].
-fn displaced<'a>(
-    live: &'a Live,
-    surfaces: &'a [crate::surface::WornCollider],
-) -> impl Iterator<Item = f64> + 'a {
+fn displaced<'a>(live: &'a Live, surfaces: &'a [WornCollider]) -> impl Iterator<Item = f64> + 'a {
     live.surfaces.iter().map(|id| surfaces[id.0].displaced())
 }

@@ -1,6 +1,6 @@
 //! What a wear world is asked for, and what it counts.
 
-use abrade::{EncounterSettings, Until};
+use abrade::{Advance, EncounterSettings, Until};
 use rapier::dynamics::RigidBodyHandle;
 
 /// Settings of a [`WearWorld`](crate::WearWorld).
@@ -48,6 +48,14 @@ pub struct Counters {
     pub steps: u64,
     /// Nodes taken through the law.
     pub node_evaluations: u64,
+}
+
+impl Counters {
+    pub(crate) fn add(&mut self, advance: &Advance) {
+        self.micro += 1;
+        self.steps += advance.steps;
+        self.node_evaluations += advance.node_evaluations;
+    }
 }
 
 /// What one step did.

@@ -135,3 +135,31 @@ pub(crate) fn carry_colliders(rb: &RigidBody, colliders: &mut ColliderSet) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Fails for a velocity that does not land, and for one whose end is taken for a push. The
+    /// integrator is Rapier's scheme, written out.
+    #[test]
+    fn a_steered_body_lands_and_owes_nothing_to_others() {
+        let (dt, substeps, damping) = (1.0 / 60.0, 4, 0.7);
+        let displacement = Vector3::new(0.1, -0.02, 0.3);
+        let pull = Vector3::new(0.0, 2.0, -9.81);
+        let limit = f64::INFINITY;
+        let (set, leg) = Leg::new(&displacement, &pull, dt, f64::from(substeps), damping, limit);
+        let (mut v, mut x) = (scalar::vector(set), Vector3::zeros());
+        for _ in 0..substeps {
+            v += pull * (dt / f64::from(substeps));
+            x += v * (dt / f64::from(substeps));
+        }
+        v /= 1.0 + dt * damping;
+        assert!((x - displacement).norm() < 4.0 * scalar::ROUNDING * displacement.norm());
+        assert_eq!(leg.change_by_others(scalar::to_vector(&v)), None);
+        let push = Vector3::new(0.0, 0.0, 0.01);
+        let pushed = scalar::to_vector(&(v + push / (1.0 + dt * damping)));
+        let seen = leg.change_by_others(pushed).unwrap_or_default();
+        assert!((seen - push).norm() < 100.0 * scalar::ROUNDING * v.norm(), "{seen}");
+    }
+}

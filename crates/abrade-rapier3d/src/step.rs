@@ -2,7 +2,7 @@
 
 use abrade::Until;
 use nalgebra::Vector3;
-use rapier::dynamics::{RigidBodyHandle, RigidBodySet};
+use rapier::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
 use rapier::geometry::ColliderSet;
 use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
 
@@ -161,37 +161,42 @@ impl WearWorld {
         let mut stale = std::mem::take(&mut self.stale);
         stale.clear();
         for (handle, rb) in world.bodies.iter().filter(|(_, rb)| gate::takes_part(rb)) {
-            let tracked = Tracked::slot(&mut self.bodies, handle);
-            if tracked.is_stale(rb, world.colliders) {
-                stale.push(handle);
+            match Tracked::slot(&mut self.bodies, handle).is_stale(rb, world.colliders) {
+                true => stale.push(handle),
+                false => self.look_at(handle, rb, world.colliders, gravity),
             }
         }
         for &handle in &stale {
             let Some(rb) = world.bodies.get_mut(handle) else { continue };
             // Colliders and extra masses that are new count from Rapier's next step on.
             rb.recompute_mass_properties_from_colliders(world.colliders);
-            let tracked = Tracked::slot(&mut self.bodies, handle);
-            tracked.refresh(rb, world.colliders);
+            Tracked::slot(&mut self.bodies, handle).refresh(rb, world.colliders);
+            self.look_at(handle, rb, world.colliders, gravity);
         }
         self.stale = stale;
-        for (handle, rb) in world.bodies.iter().filter(|(_, rb)| gate::takes_part(rb)) {
-            let tracked = Tracked::slot(&mut self.bodies, handle);
-            let lost = tracked.drop_lost_shadow(rb);
-            let course = Course::of(rb, tracked, gravity);
-            course.near(&self.lies, &self.surfaces, self.current.dt, &mut tracked.near);
-            let surfaces = &self.surfaces;
-            tracked.near.retain(|id| gate::feels(rb, &surfaces[id.0], world.colliders));
-            if lost || tracked.near.is_empty() {
-                self.closed += tracked.end(&mut self.events);
-            }
-            let lie = tracked.near.first().and_then(|id| self.lies.iter().find(|l| l.id == *id));
-            tracked.course = lie.map(|lie| {
-                let bounds = &self.surfaces[lie.id.0].bounds;
-                course.region_before(&lie.pose, bounds, self.current.dt).placed_by(&lie.pose)
-            });
-            if lie.is_some() {
-                self.candidates.push(handle);
-            }
+    }
+
+    /// Makes a body a candidate if it comes near a surface, else ends its encounter.
+    fn look_at(
+        &mut self,
+        handle: RigidBodyHandle,
+        rb: &RigidBody,
+        colliders: &ColliderSet,
+        gravity: &Vector3<f64>,
+    ) {
+        let (surfaces, dt) = (&self.surfaces, self.current.dt);
+        let tracked = Tracked::slot(&mut self.bodies, handle);
+        let lost = tracked.drop_lost_shadow(rb);
+        let course = Course::of(rb, tracked, gravity);
+        course.near(&self.lies, surfaces, dt, &mut tracked.near);
+        tracked.near.retain(|id| gate::feels(rb, &surfaces[id.0], colliders));
+        if lost || tracked.near.is_empty() {
+            self.closed += tracked.end(&mut self.events);
         }
+        let Some(&first) = tracked.near.first() else { return };
+        let Some(lie) = self.lies.iter().find(|lie| lie.id == first) else { return };
+        let region = course.region_before(&lie.pose, &surfaces[first.0].bounds, dt);
+        tracked.course = Some(region.placed_by(&lie.pose));
+        self.candidates.push(handle);
     }
 }

@@ -1,6 +1,7 @@
 //! The exact state behind Rapier's rounded one.
 
-use super::rig::{GAP, RADIUS, Rig, body, towards_plate};
+use super::rig::{GAP, RADIUS, Rig, body, surface, towards_plate};
+use crate::plugin::abrade::{Encounter, EncounterSettings, Loads, Placed, Until};
 use crate::plugin::scalar;
 use nalgebra::{Isometry3, Vector3};
 
@@ -48,4 +49,46 @@ fn the_embedders_changes_count() {
         read(&rig),
         rig.wear.state_from(&Isometry3::identity(), ball, &rig.world.bodies).expect("the ball")
     );
+}
+
+/// Fails for gravity, forces or damping that are taken for a push of others, which would leave
+/// Rapier's own flight, and for a spin beyond Rapier's cap of 47 rad/s that is cut.
+#[test]
+fn loads_are_the_cores_affair() {
+    let mut rig = Rig::new(Vector3::zeros(), 1.0 / 60.0);
+    rig.world.gravity = scalar::to_vector(&Vector3::new(0.0, 0.0, -9.81));
+    let v = Vector3::new(0.05, 0.0, 0.3);
+    let mut start = body(v);
+    start.state.spin = Vector3::new(0.0, 300.0, 40.0);
+    let ball = rig.ball(Vector3::z() * RADIUS, v);
+    let rb = &mut rig.world.bodies[ball];
+    rb.set_linear_damping(scalar::narrow(0.5));
+    rb.set_angular_damping(scalar::narrow(0.25));
+    rb.add_force(scalar::to_vector(&Vector3::new(1e-4, 0.0, 0.0)), true);
+    rb.add_torque(scalar::to_vector(&Vector3::new(0.0, 1e-8, 0.0)), true);
+    let (force, torque) = (scalar::vector(rb.user_force()), scalar::vector(rb.user_torque()));
+    let (bodies, colliders) = (&mut rig.world.bodies, &rig.world.colliders);
+    rig.wear.place_on(rig.plate, ball, start.clone(), bodies, colliders).expect("the ball");
+    rig.step();
+
+    let loads = Loads {
+        gravity: scalar::vector(rig.world.gravity),
+        force,
+        torque,
+        linear_damping: 0.5,
+        angular_damping: 0.25,
+    };
+    let mut surface = surface();
+    let settings = EncounterSettings::default();
+    let mut encounter = Encounter::new(&start, [&surface], settings).expect("an encounter");
+    let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+    let dt = scalar::wide(rig.world.integration_parameters.dt);
+    encounter
+        .advance(&mut start, &mut placed, &loads, dt, Until::Duration, &mut ())
+        .expect("a flight");
+    let state = rig.state(ball);
+    assert_eq!(rig.wear.counters().micro, 1);
+    assert_eq!(state, start.state);
+    let spin = scalar::vector(rig.world.bodies[ball].angvel());
+    assert!((spin - state.spin).norm() < 1e-6 * spin.norm() && spin.norm() > 250.0);
 }
