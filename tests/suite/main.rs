@@ -1,5 +1,6 @@
 //! Tests of the whole: physics against references that this project did not write.
 
+mod drive;
 mod foundation;
 mod ledger;
 mod paper;

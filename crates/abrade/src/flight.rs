@@ -18,7 +18,7 @@ pub(crate) fn free_time(
     loads: &Loads,
 ) -> f64 {
     let apart = box_time(surface, body, local, loads, contact.inflation());
-    let Contact::Springs(patch) = contact else { return f64::INFINITY };
+    let Contact::Springs(patch) = contact else { return apart };
     if apart > 0.0 {
         return apart;
     }

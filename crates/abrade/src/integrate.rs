@@ -7,6 +7,7 @@
 use nalgebra::Vector3;
 
 use crate::body::{Body, State};
+use crate::columns::Toll;
 use crate::contact::Contact;
 use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Until};
 use crate::error::PhysicsError;
@@ -25,6 +26,8 @@ const ETA_LIMIT: f64 = 0.7;
 const REJECT: f64 = 1.5;
 /// Growth of the step from one to the next.
 const GROWTH: f64 = 2.0;
+/// First step into contact, in yield overlaps travelled.
+const FLOOR: f64 = 0.1;
 /// Share of a step below which the turning point is not worth a step of its own.
 const TURN: f64 = 0.05;
 /// Overlap at the first step, in bounding radii, above which a body counts as started inside.
@@ -37,10 +40,10 @@ const STOPPED: f64 = 1e-9;
 pub(crate) struct Integrator {
     settings: EncounterSettings,
     pub(crate) dynamics: Dynamics,
-    eta: f64,
+    pub(crate) eta: f64,
     pub(crate) contacts: Vec<Contact>,
     /// Step that the last contact asked for [s]; zero when there is none.
-    next_dt: f64,
+    pub(crate) next_dt: f64,
     /// What the contacts do to the body at the present instant.
     pub(crate) pull: Pull,
     pub(crate) touching: bool,
@@ -103,13 +106,8 @@ impl Integrator {
         let mut done = Advance::default();
         while done.time < duration {
             let remaining = duration - done.time;
-            let wanted = match self.touching {
-                true => self.contact_step(body),
-                false => self.free_step(body, surfaces, loads),
-            };
-            let limit = self.sweep_limit(body, surfaces, loads);
-            let step = wanted.min(limit.max(self.box_time(body, surfaces, loads))).min(remaining);
-            let dt = self.step(body, surfaces, loads, step, &mut done)?;
+            let (step, flight) = self.next_step(body, surfaces, loads);
+            let dt = self.step(body, surfaces, loads, step.min(remaining), flight, &mut done)?;
             // The last step ends on the duration to the bit.
             done.time = if dt == remaining { duration } else { done.time + dt };
             observer.observe(&Instant {
@@ -146,30 +144,23 @@ impl Integrator {
         if turn > TURN * self.next_dt && turn < self.next_dt { turn } else { self.next_dt }
     }
 
-    /// Step of a body out of contact: to the next instant at which it may touch.
-    fn free_step(&mut self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads) -> f64 {
+    /// Length of the next step, and whether it is flight, in which no node can be touched.
+    fn next_step(&mut self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads) -> (f64, bool) {
+        let limit = self.sweep_limit(body, surfaces, loads);
+        if self.touching {
+            return (self.contact_step(body).min(limit), false);
+        }
+        let mut free = f64::INFINITY;
+        for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
+            let local = body.state.seen_from(&placed.pose);
+            free = free.min(free_time(contact, placed.surface, body, &local, loads));
+        }
         let speed = top_speed(body);
         let yield_overlap = self.contacts.iter().map(Contact::yield_overlap);
         let scale = yield_overlap.fold(f64::INFINITY, f64::min);
-        let floor = if speed > 0.0 { 0.1 * scale / speed } else { f64::INFINITY };
-        let mut time = f64::INFINITY;
-        for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
-            let local = body.state.seen_from(&placed.pose);
-            time = time.min(free_time(contact, placed.surface, body, &local, loads));
-        }
-        time.max(floor)
-    }
-
-    /// Time until the boxes of the body and of every surface swept by it can meet [s].
-    fn box_time(&self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads) -> f64 {
-        let mut time = f64::INFINITY;
-        for (contact, placed) in self.contacts.iter().zip(surfaces) {
-            if let Contact::Columns(_) = contact {
-                let local = body.state.seen_from(&placed.pose);
-                time = time.min(crate::flight::box_time(placed.surface, body, &local, loads, 0.0));
-            }
-        }
-        time
+        let floor = if speed > 0.0 { FLOOR * scale / speed } else { f64::INFINITY };
+        let floor = floor.min(limit);
+        if free > floor || free == f64::INFINITY { (free, true) } else { (floor, false) }
     }
 
     /// Longest step of the swept rule: |v| dt <= 0.1 pitch, and 0.4 yield overlaps with springs.
@@ -190,11 +181,12 @@ impl Integrator {
         surfaces: &mut [Placed<'_>],
         loads: &Loads,
         dt: f64,
+        flight: bool,
         done: &mut Advance,
     ) -> Result<f64, PhysicsError> {
         let mut dt = dt;
         loop {
-            let trial = self.trial(body, surfaces, loads, dt);
+            let trial = self.trial(body, surfaces, loads, dt, flight);
             done.node_evaluations += trial.evaluations;
             if !trial.is_finite() {
                 return Err(PhysicsError::NotFinite { time: done.contact_time });
@@ -241,6 +233,12 @@ impl Integrator {
             ledger.damping += energy(&end.state) - energy(&state);
             ledger.external_work +=
                 weight.dot(&trial.shift) + self.dynamics.work(&loads.torque, &trial.turn);
+            if self.dynamics.is_guided() {
+                // What leads the body takes up the force that its velocity does not show.
+                let total = end.impulse + weight * dt;
+                let shown = (end.state.velocity - before.velocity) / self.dynamics.inverse_mass;
+                ledger.external_work += (shown - total).dot(&trial.shift) / dt;
+            }
             ledger.elastic = end.ledger.elastic;
             ledger.friction += end.ledger.friction;
             ledger.wear += end.ledger.wear;
@@ -293,6 +291,33 @@ impl Integrator {
         }
         self.touching = false;
         self.touched = false;
+    }
+
+    /// Distance between the boxes of the body and of the first surface [m].
+    pub(crate) fn gap(&self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
+        let (contact, placed) = (&self.contacts[0], &surfaces[0]);
+        let local = body.state.seen_from(&placed.pose);
+        separation(placed.surface, body, &local, contact.inflation())
+    }
+
+    /// Books a step of a led body, in which the lead did `work` [J].
+    pub(crate) fn book_lead(&mut self, elastic: f64, work: f64, springs: Ledger, toll: &Toll) {
+        let ledger = &mut self.ledger;
+        ledger.elastic = elastic;
+        ledger.external_work += work;
+        ledger.friction += springs.friction + toll.flow.friction + toll.spring.friction;
+        ledger.wear += springs.wear + toll.wear;
+        ledger.history += springs.history + toll.lost;
+    }
+
+    /// Turns an indented body into a sliding one that is free along `vertical` alone; the ledger
+    /// begins anew.
+    pub(crate) fn restart(&mut self, body: &mut Body, vertical: &Vector3<f64>) {
+        body.state.velocity = Vector3::zeros();
+        self.dynamics = self.dynamics.guided(*vertical);
+        self.touched = true;
+        let stored = self.ledger.elastic;
+        self.ledger = Ledger { elastic: stored, elastic_start: stored, ..Ledger::default() };
     }
 }
 

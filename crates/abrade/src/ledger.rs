@@ -3,8 +3,10 @@
 /// Energies of one body's contacts [J]. Every wear and friction increment is >= 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ledger {
-    /// Stored in the springs.
+    /// Stored in the springs now.
     pub elastic: f64,
+    /// Stored in the springs when the ledger was opened.
+    pub elastic_start: f64,
     /// Dissipated by slip.
     pub friction: f64,
     /// Work of the nodes' forces on their drops (Eqs. 21, 22).
@@ -23,7 +25,7 @@ pub struct Ledger {
 impl Ledger {
     /// What time integration has added: the run's honest error monitor.
     pub fn numerical(&self) -> f64 {
-        self.external_work
+        self.external_work + self.elastic_start
             - (self.kinetic_change
                 + self.elastic
                 + self.friction
@@ -36,6 +38,7 @@ impl Ledger {
 impl std::ops::AddAssign for Ledger {
     fn add_assign(&mut self, other: Self) {
         self.elastic += other.elastic;
+        self.elastic_start += other.elastic_start;
         self.friction += other.friction;
         self.wear += other.wear;
         self.damping += other.damping;

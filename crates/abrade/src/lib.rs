@@ -10,6 +10,7 @@ mod candidates;
 mod column;
 mod columns;
 mod contact;
+mod drive;
 mod elastic;
 mod encounter;
 mod error;
@@ -36,6 +37,7 @@ mod trial;
 mod union_inertia;
 
 pub use body::{Body, Inertia, State};
+pub use drive::{Drive, DriveSolution, Driven};
 pub use encounter::{
     Advance, Encounter, EncounterSettings, Instant, Loads, Observer, Placed, Until,
 };

@@ -8,6 +8,9 @@ use crate::body::State;
 use crate::columns::Push;
 use crate::rotation::Dynamics;
 
+/// A guided body is paid for by what leads it: nothing is scaled.
+const LED: Payment = Payment { scale: 1.0, share: 1.0 };
+
 /// Range of the scale for springs: near a turning point their impulse does no work, and no scale
 /// could balance it.
 const SPRING_SCALES: [f64; 2] = [0.8, 1.2];
@@ -30,6 +33,9 @@ fn quadratic(push: &Push, state: &State, dynamics: &Dynamics) -> (f64, f64) {
 /// Scales the impulse of sweeping faces so that a body in `state` loses `cost` [J]:
 /// b l + a l^2 = -cost. Where that has no solution the body gives all that the direction has.
 pub(crate) fn pay(push: &Push, cost: f64, state: &State, dynamics: &Dynamics) -> Payment {
+    if dynamics.is_guided() {
+        return LED;
+    }
     let (a, b) = quadratic(push, state, dynamics);
     if cost <= 0.0 || a <= 0.0 {
         return Payment { scale: 0.0, share: 1.0 };
@@ -46,6 +52,9 @@ pub(crate) fn pay(push: &Push, cost: f64, state: &State, dynamics: &Dynamics) ->
 /// Scale of the springs' impulse that brings the kinetic energy nearest to losing `cost` [J], and
 /// by how much it falls short of that [J].
 pub(crate) fn balance(push: &Push, cost: f64, state: &State, dynamics: &Dynamics) -> (f64, f64) {
+    if dynamics.is_guided() {
+        return (1.0, 0.0);
+    }
     let (a, b) = quadratic(push, state, dynamics);
     let short = |l: f64| (a * l + b) * l + cost;
     let [low, high] = SPRING_SCALES;

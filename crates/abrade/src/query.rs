@@ -150,9 +150,9 @@ impl Query for ClumpQuery {
         let balls = self.balls.iter().map(|ball| ball.touch(x, n));
         let hulls = self.hulls.iter().map(|hull| hull.touch(x, n, &self.position));
         let pressure = |touch: &Touch| touch.coefficient * touch.overlap;
-        let deepest = balls.chain(hulls).reduce(|best, touch| {
-            if pressure(&touch) > pressure(&best) { touch } else { best }
-        });
+        let deepest = balls
+            .chain(hulls)
+            .reduce(|best, touch| if pressure(&touch) > pressure(&best) { touch } else { best });
         deepest.expect("a shape has at least one piece")
     }
 

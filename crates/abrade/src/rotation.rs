@@ -17,6 +17,8 @@ pub(crate) struct Dynamics {
     inverse: Matrix3<f64>,
     isotropic: bool,
     locked: bool,
+    /// The only direction in which forces move a guided body.
+    guide: Option<Vector3<f64>>,
 }
 
 impl Dynamics {
@@ -39,7 +41,24 @@ impl Dynamics {
             inverse,
             isotropic,
             locked,
+            guide: None,
         })
+    }
+
+    /// A body that is led along everything but the unit vector `free`.
+    pub(crate) fn guided(self, free: Vector3<f64>) -> Self {
+        Self { guide: Some(free), ..self }
+    }
+
+    /// True for a body that something else leads.
+    pub(crate) fn is_guided(&self) -> bool {
+        self.guide.is_some()
+    }
+
+    /// Change of the velocity by an impulse [N s].
+    pub(crate) fn accelerate(&self, impulse: &Vector3<f64>) -> Vector3<f64> {
+        let free = self.guide.map_or(*impulse, |axis| axis * axis.dot(impulse));
+        free * self.inverse_mass
     }
 
     /// Change of the spin by an impulsive torque [N m s] at `rotation`.

@@ -30,9 +30,20 @@ pub(crate) struct Pull {
     pub push: Vector3<f64>,
 }
 
+/// How a body moves over a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Course {
+    /// Mid-step velocity [m/s] and spin [rad/s].
+    pub velocity: Vector3<f64>,
+    pub spin: Vector3<f64>,
+    /// Length of the step [s].
+    pub dt: f64,
+}
+
 /// A step that may be rejected.
 pub(crate) struct Trial {
     state: State,
+    dt: f64,
     /// Displacement [m] and turn [rad] of the step.
     pub shift: Vector3<f64>,
     pub turn: Vector3<f64>,
@@ -72,6 +83,11 @@ impl Trial {
         self.state.is_finite() && forces.iter().all(|v| v.iter().all(|x| x.is_finite()))
     }
 
+    /// Force of all contacts on the body [N]; of columns, the mean over the step.
+    pub(crate) fn force(&self) -> Vector3<f64> {
+        self.springs.force + (self.toll.flow.impulse + self.toll.spring.impulse) / self.dt
+    }
+
     /// Highest angular frequency [1/s] of the body on the touching springs.
     pub(crate) fn omega(&self, dynamics: &Dynamics) -> f64 {
         let springs = &self.springs;
@@ -89,20 +105,36 @@ impl Integrator {
         surfaces: &[Placed<'_>],
         loads: &Loads,
         dt: f64,
+        flight: bool,
     ) -> Trial {
         let half = 0.5 * dt;
         let mut state = body.state;
         self.kick(body, loads, &self.pull.spring_force, &self.pull.spring_torque, half, &mut state);
         let kicked = state;
         let swept = self.swept_pull();
-        state.velocity += swept.0 * (half * self.dynamics.inverse_mass);
+        state.velocity += self.dynamics.accelerate(&(swept.0 * half));
         state.spin += self.dynamics.turn(&state.rotation, &(swept.1 * half));
         let (velocity, predicted) = (state.velocity, state.spin);
         let spin = self.dynamics.drift(&mut state, dt);
         state.velocity = kicked.velocity;
         state.spin += kicked.spin - predicted;
+        // In flight nothing can be touched, so nothing is asked.
+        let surfaces = if flight { &[] } else { surfaces };
+        self.ask(body, surfaces, &state, Course { velocity, spin, dt })
+    }
+
+    /// Asks every contact about a step that ends at `state`.
+    pub(crate) fn ask(
+        &mut self,
+        body: &Body,
+        surfaces: &[Placed<'_>],
+        state: &State,
+        course: Course,
+    ) -> Trial {
+        let Course { velocity, spin, dt } = course;
         let mut trial = Trial {
-            state,
+            state: *state,
+            dt,
             shift: velocity * dt,
             turn: spin * dt,
             answers: Vec::with_capacity(surfaces.len()),
@@ -167,7 +199,7 @@ impl Integrator {
     ) {
         let force = force + loads.force + loads.gravity * body.inertia.mass;
         let torque = torque + loads.torque;
-        state.velocity += force * (self.dynamics.inverse_mass * time);
+        state.velocity += self.dynamics.accelerate(&(force * time));
         state.spin += self.dynamics.turn(&state.rotation, &(torque * time));
     }
 
@@ -184,9 +216,8 @@ impl Integrator {
         let springs = &trial.springs;
         self.kick(body, loads, &springs.force, &springs.torque, 0.5 * dt, &mut state);
         let toll = &trial.toll;
-        let sprung = self.has_sprung_columns();
         let apply = |push: &Push, state: &mut State| {
-            state.velocity += push.impulse * self.dynamics.inverse_mass;
+            state.velocity += self.dynamics.accelerate(&push.impulse);
             state.spin += self.dynamics.turn(&state.rotation, &push.torque);
         };
         let cost = toll.spring.friction + toll.elastic + toll.lost + self.short;
@@ -200,24 +231,7 @@ impl Integrator {
         let impulse = sprung_push.impulse + flow_push.impulse;
         let torque = sprung_push.torque + flow_push.torque;
         self.short = short;
-        let mut elastic = springs.ledger.elastic;
-        let mut push = springs.push;
-        let pairs = self.contacts.iter_mut().zip(surfaces.iter_mut());
-        for ((contact, placed), answer) in pairs.zip(&trial.answers) {
-            match (contact, answer) {
-                (Contact::Springs(patch), Answer::Springs(reaction)) => {
-                    patch.commit(placed.surface, reaction);
-                }
-                (Contact::Columns(columns), Answer::Columns(toll)) => {
-                    columns.commit(placed.surface, payment.share, toll, dt);
-                    push += placed.pose * (toll.flow.impulse + toll.spring.impulse) / dt;
-                    if sprung {
-                        elastic += columns.elastic();
-                    }
-                }
-                _ => {}
-            }
-        }
+        let (elastic, push) = self.commit(surfaces, trial, payment.share);
         let pull = Pull {
             force: springs.force + impulse / dt,
             torque: springs.torque + torque / dt,
@@ -236,5 +250,63 @@ impl Integrator {
         };
         let mean = (self.pull.spring_force + springs.force) * (0.5 * dt);
         Settled { state, pull, impulse: mean + impulse, ledger }
+    }
+
+    /// Makes a trial the nodes' state; a blocked body takes a `share` of the swept columns.
+    /// Returns the stored energy [J] and the push along the nodes' normals [N].
+    fn commit(
+        &mut self,
+        surfaces: &mut [Placed<'_>],
+        trial: &Trial,
+        share: f64,
+    ) -> (f64, Vector3<f64>) {
+        let mut elastic = trial.springs.ledger.elastic;
+        let mut push = trial.springs.push;
+        let stored = self.keeps_ledger();
+        let pairs = self.contacts.iter_mut().zip(surfaces.iter_mut());
+        for ((contact, placed), answer) in pairs.zip(&trial.answers) {
+            match (contact, answer) {
+                (Contact::Springs(patch), Answer::Springs(reaction)) => {
+                    patch.commit(placed.surface, reaction);
+                }
+                (Contact::Columns(columns), Answer::Columns(toll)) => {
+                    columns.commit(placed.surface, share, toll, trial.dt);
+                    push += placed.pose * (toll.flow.impulse + toll.spring.impulse) / trial.dt;
+                    if stored {
+                        elastic += columns.elastic();
+                    }
+                }
+                _ => {}
+            }
+        }
+        (elastic, push)
+    }
+
+    /// Makes the trial of a led body the state; what leads it pays for everything.
+    pub(crate) fn lead(
+        &mut self,
+        body: &mut Body,
+        surfaces: &mut [Placed<'_>],
+        dt: f64,
+        trial: &Trial,
+    ) {
+        let (elastic, push) = self.commit(surfaces, trial, 1.0);
+        let force = trial.force();
+        if self.keeps_ledger() {
+            let work = -0.5 * (self.pull.force + force).dot(&trial.shift);
+            self.book_lead(elastic, work, trial.springs.ledger, &trial.toll);
+        }
+        let velocity = trial.shift / dt;
+        body.state = State { velocity, ..trial.state };
+        let none = Vector3::zeros();
+        self.pull = Pull {
+            force,
+            torque: none,
+            spring_force: trial.springs.force,
+            spring_torque: none,
+            push,
+        };
+        self.touching = trial.touching > 0;
+        self.next_dt = self.eta / trial.omega(&self.dynamics);
     }
 }

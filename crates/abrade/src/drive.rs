@@ -1,0 +1,293 @@
+//! Driven bodies: pressed into a surface up to a load, then slid at constant speed under constant
+//! load, rotation locked (Capozza & Hanley, Section 3: indentation and scratching).
+
+use nalgebra::Vector3;
+
+use crate::body::Body;
+use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Until};
+use crate::error::PhysicsError;
+use crate::integrate::Integrator;
+use crate::ledger::Ledger;
+use crate::surface::Surface;
+use crate::trial::{Course, Trial};
+
+/// Increments of the indentation in yield overlaps, and in pitches without springs.
+const INDENT_YIELD: f64 = 0.1;
+const INDENT_PITCH: f64 = 0.01;
+/// Relative tolerance of a load that is searched for.
+const LOAD: f64 = 1e-6;
+/// Bisections of a search for a load.
+const LOAD_STEPS: usize = 60;
+
+/// What a driven body does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drive {
+    /// Load at which the indentation ends [N].
+    pub indent_to: f64,
+    /// Load while sliding [N].
+    pub load: f64,
+    /// Sliding speed along the surface's x [m/s].
+    pub speed: f64,
+    /// Sliding distance [m]; zero only indents.
+    pub distance: f64,
+    /// Mass that moves vertically while sliding [kg].
+    pub mass: f64,
+    /// How the sliding is solved.
+    pub solution: DriveSolution,
+}
+
+/// How the vertical motion of a sliding body follows from its load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DriveSolution {
+    /// Newton's law for the driven mass.
+    Dynamic,
+    /// Balance of the load at every increment of travel.
+    QuasiStatic {
+        /// Increment of travel [m].
+        increment: f64,
+    },
+}
+
+/// A driven body in its course.
+#[derive(Clone, Debug)]
+pub struct Driven {
+    drive: Drive,
+    integrator: Integrator,
+    travelled: f64,
+}
+
+impl Driven {
+    /// A driven `body` above `surface`.
+    ///
+    /// # Errors
+    /// A law that does not go with the body's shape, or a mass that cannot move.
+    pub fn new(
+        body: &mut Body,
+        surface: &Surface,
+        drive: Drive,
+        settings: EncounterSettings,
+    ) -> Result<Self, PhysicsError> {
+        body.rotation_locked = true;
+        body.inertia.mass = drive.mass;
+        body.state.velocity = Vector3::zeros();
+        body.state.spin = Vector3::zeros();
+        let integrator = Integrator::new(body, [surface], settings)?;
+        Ok(Self { drive, integrator, travelled: 0.0 })
+    }
+
+    /// The drive.
+    pub fn drive(&self) -> &Drive {
+        &self.drive
+    }
+
+    /// Distance slid so far [m].
+    pub fn travelled(&self) -> f64 {
+        self.travelled
+    }
+
+    /// True when the whole distance is slid.
+    pub fn is_done(&self) -> bool {
+        self.travelled >= self.drive.distance
+    }
+
+    /// The energies since the sliding began; zeros unless asked for.
+    pub fn ledger(&self) -> &Ledger {
+        self.integrator.ledger()
+    }
+
+    /// Force of the surface on the body at the present instant [N].
+    pub fn force(&self) -> Vector3<f64> {
+        self.integrator.pull.force
+    }
+
+    /// Presses the body straight down until the surface answers with `indent_to`; takes no time.
+    ///
+    /// # Errors
+    /// A load that is not reached before the body is pressed in by its own size.
+    pub fn indent(
+        &mut self,
+        body: &mut Body,
+        placed: &mut [Placed<'_>; 1],
+        observer: &mut dyn Observer,
+    ) -> Result<Advance, PhysicsError> {
+        let down = -(placed[0].pose.rotation * Vector3::z());
+        let overlap = self.integrator.contacts[0].yield_overlap();
+        let increment = match overlap.is_finite() {
+            true => INDENT_YIELD * overlap,
+            false => INDENT_PITCH * placed[0].surface.pitch(),
+        };
+        let gap = self.integrator.gap(body, placed);
+        body.state.position += down * gap.max(0.0);
+        let limit = body.shape.bounding_radius();
+        let mut done = Advance::default();
+        let mut depth = 0.0;
+        loop {
+            if depth > limit {
+                return Err(PhysicsError::LoadNotReached { load: self.drive.indent_to, depth });
+            }
+            let target = self.drive.indent_to;
+            let load = |trial: &Trial| -trial.force().dot(&down);
+            let mut trial = self.push(body, placed, down * increment);
+            let mut step = increment;
+            if load(&trial) >= target {
+                step = self.find(body, placed, down, [0.0, increment], target);
+                trial = self.push(body, placed, down * step);
+            }
+            let reached = load(&trial) >= (1.0 - LOAD) * target;
+            depth += step;
+            done.node_evaluations += trial.evaluations;
+            done.steps += 1;
+            self.integrator.lead(body, placed, step, &trial);
+            observer.observe(&Instant {
+                time: 0.0,
+                state: &body.state,
+                force: self.force(),
+                surfaces: placed,
+                ledger: None,
+            });
+            if reached {
+                self.integrator.restart(body, &-down);
+                return Ok(done);
+            }
+        }
+    }
+
+    /// Slides for `duration` [s], or to the end of the distance if that comes first.
+    ///
+    /// # Errors
+    /// A physical state outside the model's reach.
+    pub fn advance(
+        &mut self,
+        body: &mut Body,
+        placed: &mut [Placed<'_>; 1],
+        duration: f64,
+        observer: &mut dyn Observer,
+    ) -> Result<Advance, PhysicsError> {
+        let left = (self.drive.distance - self.travelled) / self.drive.speed;
+        let last = duration >= left;
+        let duration = duration.min(left);
+        let advance = match self.drive.solution {
+            DriveSolution::Dynamic => {
+                let rotation = placed[0].pose.rotation;
+                let vertical = rotation * Vector3::z();
+                let rise = body.state.velocity.dot(&vertical);
+                body.state.velocity = rotation * Vector3::x() * self.drive.speed + vertical * rise;
+                let loads = Loads { force: -vertical * self.drive.load, ..Loads::default() };
+                self.integrator.advance(
+                    body,
+                    placed,
+                    &loads,
+                    duration,
+                    Until::Duration,
+                    observer,
+                )?
+            }
+            DriveSolution::QuasiStatic { increment } => {
+                self.creep(body, placed, duration, increment, observer)?
+            }
+        };
+        self.travelled =
+            if last { self.drive.distance } else { self.travelled + duration * self.drive.speed };
+        Ok(advance)
+    }
+
+    /// Quasi-static sliding: at every increment the height at which the load is balanced.
+    fn creep(
+        &mut self,
+        body: &mut Body,
+        placed: &mut [Placed<'_>; 1],
+        duration: f64,
+        increment: f64,
+        observer: &mut dyn Observer,
+    ) -> Result<Advance, PhysicsError> {
+        let rotation = placed[0].pose.rotation;
+        let (ahead, down) = (rotation * Vector3::x(), -(rotation * Vector3::z()));
+        let travel = duration * self.drive.speed;
+        let count = (travel / increment).ceil().max(1.0);
+        let dt = duration / count;
+        let mut done = Advance { time: duration, ..Advance::default() };
+        for i in 0..count as u64 {
+            let along = ahead * (travel / count);
+            let sink = self.balance(body, placed, along, down, increment)?;
+            let trial = self.push(body, placed, along + down * sink);
+            done.node_evaluations += trial.evaluations;
+            done.steps += 1;
+            self.integrator.lead(body, placed, dt, &trial);
+            done.impulse += self.force() * dt;
+            observer.observe(&Instant {
+                time: (i + 1) as f64 * dt,
+                state: &body.state,
+                force: self.force(),
+                surfaces: placed,
+                ledger: None,
+            });
+        }
+        done.contact_time = duration;
+        Ok(done)
+    }
+
+    /// How far the body sinks over the increment `along` so that the load is balanced [m].
+    fn balance(
+        &mut self,
+        body: &Body,
+        placed: &mut [Placed<'_>; 1],
+        along: Vector3<f64>,
+        down: Vector3<f64>,
+        increment: f64,
+    ) -> Result<f64, PhysicsError> {
+        let load = self.drive.load;
+        let mut excess = |sink: f64| {
+            let trial = self.push(body, placed, along + down * sink);
+            -trial.force().dot(&down) - load
+        };
+        let (mut low, mut high) = (-increment, increment);
+        while excess(low) > 0.0 {
+            low *= 2.0;
+        }
+        let limit = body.shape.bounding_radius();
+        while excess(high) < 0.0 {
+            high *= 2.0;
+            if high > limit {
+                return Err(PhysicsError::LoadNotReached { load, depth: high });
+            }
+        }
+        for _ in 0..LOAD_STEPS {
+            let middle = 0.5 * (low + high);
+            let over = excess(middle);
+            if over.abs() < LOAD * load {
+                return Ok(middle);
+            }
+            if over > 0.0 { high = middle } else { low = middle }
+        }
+        Ok(0.5 * (low + high))
+    }
+
+    /// The sink within `range` at which the load is `target` [m].
+    fn find(
+        &mut self,
+        body: &Body,
+        placed: &mut [Placed<'_>; 1],
+        down: Vector3<f64>,
+        range: [f64; 2],
+        target: f64,
+    ) -> f64 {
+        let [mut low, mut high] = range;
+        for _ in 0..LOAD_STEPS {
+            let middle = 0.5 * (low + high);
+            let load = -self.push(body, placed, down * middle).force().dot(&down);
+            if (load - target).abs() < LOAD * target {
+                return middle;
+            }
+            if load > target { high = middle } else { low = middle }
+        }
+        high
+    }
+
+    /// A trial of a straight push by `shift` [m]; commits nothing.
+    fn push(&mut self, body: &Body, placed: &[Placed<'_>; 1], shift: Vector3<f64>) -> Trial {
+        let mut state = body.state;
+        state.position += shift;
+        let course = Course { velocity: shift, spin: Vector3::zeros(), dt: 1.0 };
+        self.integrator.ask(body, placed, &state, course)
+    }
+}
