@@ -84,7 +84,7 @@ impl Shot {
             rotation_locked: self.rotation_locked,
         };
         let before = body.inertia.kinetic_energy(&body.state);
-        let settings = EncounterSettings { ledger: true, accuracy: std::env::var("ACC").map_or(1e-3, |a| a.parse().unwrap()), ..Default::default() };
+        let settings = EncounterSettings { ledger: true, ..Default::default() };
         let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
         let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
         let advance = encounter

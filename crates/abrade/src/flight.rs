@@ -57,6 +57,16 @@ pub(crate) fn separation(surface: &Surface, body: &Body, local: &State, inflatio
         .fold(f64::NEG_INFINITY, f64::max)
 }
 
+/// Time until the body's box leaves the box of the nodes on the side where it moves out of it
+/// [s]; infinite for a body that is clear or does not rise.
+pub(crate) fn rise_time(surface: &Surface, body: &Body, local: &State, inflation: f64) -> f64 {
+    let leaving = |(gap, approach): (f64, f64)| match gap < 0.0 && approach < 0.0 {
+        true => gap / approach * (1.0 + f64::EPSILON) + f64::MIN_POSITIVE,
+        false => f64::INFINITY,
+    };
+    gaps(surface, body, local, inflation).map(leaving).into_iter().fold(f64::INFINITY, f64::min)
+}
+
 /// Per axis: the gap between the boxes, and the speed at which it closes.
 fn gaps(surface: &Surface, body: &Body, local: &State, inflation: f64) -> [(f64, f64); 3] {
     let [low, high] = bounds(&body.shape, local, inflation);

@@ -135,12 +135,12 @@ impl Integrator {
 
     /// Step of a body in contact. It ends where the body turns, because there the flow ends: a
     /// sampled peak would miss wear in proportion to dt^2.
-    fn contact_step(&self, body: &Body) -> f64 {
+    fn contact_step(&self, body: &Body, loads: &Loads) -> f64 {
         let push = self.pull.push;
         let direction = push / push.norm().max(f64::MIN_POSITIVE);
         let approach = -body.state.velocity.dot(&direction);
-        let braking = self.pull.force.dot(&direction) * self.dynamics.inverse_mass;
-        let turn = approach / braking;
+        let net = self.pull.force + loads.force + loads.gravity * body.inertia.mass;
+        let turn = approach / (net.dot(&direction) * self.dynamics.inverse_mass);
         if turn > TURN * self.next_dt && turn < self.next_dt { turn } else { self.next_dt }
     }
 
@@ -148,7 +148,7 @@ impl Integrator {
     fn next_step(&mut self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads) -> (f64, bool) {
         let limit = self.sweep_limit(body, surfaces, loads);
         if self.touching {
-            return (self.contact_step(body).min(limit), false);
+            return (self.contact_step(body, loads).min(limit), false);
         }
         let mut free = f64::INFINITY;
         for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
@@ -160,7 +160,24 @@ impl Integrator {
         let scale = yield_overlap.fold(f64::INFINITY, f64::min);
         let floor = if speed > 0.0 { FLOOR * scale / speed } else { f64::INFINITY };
         let floor = floor.min(limit);
-        if free > floor || free == f64::INFINITY { (free, true) } else { (floor, false) }
+        if free > floor || free == f64::INFINITY {
+            (free.min(self.rise_time(body, surfaces)), true)
+        } else {
+            (floor, false)
+        }
+    }
+
+    /// After a contact: time until the whole body is above the undeformed surfaces [s], so that a
+    /// flight step ends there.
+    fn rise_time(&self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
+        if !self.touched {
+            return f64::INFINITY;
+        }
+        let times = self.contacts.iter().zip(surfaces).map(|(contact, placed)| {
+            let local = body.state.seen_from(&placed.pose);
+            crate::flight::rise_time(placed.surface, body, &local, contact.inflation())
+        });
+        times.fold(f64::INFINITY, f64::min)
     }
 
     /// Longest step of the swept rule: |v| dt <= 0.1 pitch, and 0.4 yield overlaps with springs.
@@ -186,6 +203,9 @@ impl Integrator {
     ) -> Result<f64, PhysicsError> {
         let mut dt = dt;
         loop {
+            if !flight && !self.touched {
+                self.start_clear(body, surfaces)?;
+            }
             let trial = self.trial(body, surfaces, loads, dt, flight);
             done.node_evaluations += trial.evaluations;
             if !trial.is_finite() {
@@ -200,9 +220,11 @@ impl Integrator {
                 continue;
             }
             if !self.touched && trial.touching > 0 {
-                self.begin_contact(body, surfaces)?;
+                self.touched = true;
+                self.energy_before = body.inertia.kinetic_energy(&body.state);
             }
-            self.next_dt = allowed.min(GROWTH * dt);
+            // A step cut short at a turning point says nothing of the next one.
+            self.next_dt = allowed.min(GROWTH * dt.max(self.next_dt.min(allowed)));
             self.accept(body, surfaces, loads, dt, trial, done);
             for placed in surfaces.iter() {
                 engulfed(placed, &body.state)?;
@@ -254,16 +276,17 @@ impl Integrator {
         body.state = state;
     }
 
-    /// The first touch: the body must not have started inside a surface.
-    fn begin_contact(&mut self, body: &Body, surfaces: &[Placed<'_>]) -> Result<(), PhysicsError> {
+    /// The body must not lie inside a surface before it has touched it.
+    fn start_clear(&mut self, body: &Body, surfaces: &[Placed<'_>]) -> Result<(), PhysicsError> {
         for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
-            let depth = contact.deepest(&body.shape, &body.state.seen_from(&placed.pose));
+            let local = body.state.seen_from(&placed.pose);
+            let margin = 0.5 * placed.surface.pitch();
+            contact.cover(placed.surface, &body.shape, &local, margin);
+            let depth = contact.deepest(&body.shape, &local);
             if depth > INSIDE * body.shape.bounding_radius() {
                 return Err(PhysicsError::StartsInside { depth });
             }
         }
-        self.touched = true;
-        self.energy_before = body.inertia.kinetic_energy(&body.state);
         Ok(())
     }
 
