@@ -405,7 +405,7 @@ impl Columns {
             for piece in cut.pieces.iter() {
                 let total = share * (piece[1] - piece[0]);
                 let broken = column.dig(piece, share);
-                surface.nodes.depth[slot.id as usize] += total + broken;
+                surface.sink(slot.id, total + broken);
                 let worn = &mut surface.worn;
                 worn.lateral += slot.area * total * cut.lateral;
                 worn.normal += slot.area * total * (1.0 - cut.lateral);
@@ -425,7 +425,7 @@ impl Columns {
         for (slot, column) in self.candidates.slots.iter().zip(&mut self.columns) {
             let standing = column.standing();
             if standing > 0.0 {
-                surface.nodes.depth[slot.id as usize] += standing;
+                surface.sink(slot.id, standing);
                 surface.worn.chip += slot.area * standing;
                 surface.worn.removed += slot.area * standing;
             }

@@ -320,7 +320,7 @@ impl Patch {
             let total = drop.normal + drop.lateral;
             if spring.overlap > 0.0 && total > 0.0 {
                 slot.x -= slot.n * total;
-                surface.nodes.depth[slot.id as usize] += total;
+                surface.sink(slot.id, total);
                 surface.worn.normal += slot.area * drop.normal;
                 surface.worn.lateral += slot.area * drop.lateral;
                 surface.worn.removed += slot.area * total * removed_share(&removal, attack);

@@ -48,6 +48,8 @@ pub struct Worn {
     pub chip: f64,
     /// Debris, by the surface's removal rule.
     pub removed: f64,
+    /// Largest depth of a node [m].
+    pub max_depth: f64,
     /// Largest total force along minus the normals [N].
     pub peak_normal_force: f64,
     /// Largest number of nodes that carried force at one instant.
@@ -65,6 +67,13 @@ pub struct Surface {
     pub(crate) grid: Grid,
     columns_rows: [usize; 2],
     pitch: f64,
+}
+
+impl Worn {
+    /// W_V [m3] as the sum of its parts.
+    pub fn displaced(&self) -> f64 {
+        self.normal + self.lateral + self.chip
+    }
 }
 
 impl HexStrip {
@@ -187,6 +196,13 @@ impl Surface {
     /// Distance of neighbouring nodes [m].
     pub fn pitch(&self) -> f64 {
         self.pitch
+    }
+
+    /// Sinks node `id` by `drop` [m].
+    pub(crate) fn sink(&mut self, id: u32, drop: f64) {
+        let depth = &mut self.nodes.depth[id as usize];
+        *depth += drop;
+        self.worn.max_depth = self.worn.max_depth.max(*depth);
     }
 
     /// W_V [m3] = sum of rest_area * depth (Eq. 6), chips included.
