@@ -47,3 +47,16 @@ impl std::ops::AddAssign for Ledger {
         self.kinetic_change += other.kinetic_change;
     }
 }
+
+impl std::ops::SubAssign for Ledger {
+    fn sub_assign(&mut self, other: Self) {
+        self.elastic -= other.elastic;
+        self.elastic_start -= other.elastic_start;
+        self.friction -= other.friction;
+        self.wear -= other.wear;
+        self.damping -= other.damping;
+        self.external_work -= other.external_work;
+        self.history -= other.history;
+        self.kinetic_change -= other.kinetic_change;
+    }
+}
