@@ -61,6 +61,15 @@ pub(crate) enum Precision {
     F64,
 }
 
+impl From<Precision> for abrade_scene::Precision {
+    fn from(precision: Precision) -> Self {
+        match precision {
+            Precision::F32 => Self::Single,
+            Precision::F64 => Self::Double,
+        }
+    }
+}
+
 /// Arguments of `clump`.
 #[derive(Args)]
 pub(crate) struct ClumpArguments {

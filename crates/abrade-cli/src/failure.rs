@@ -14,14 +14,17 @@ pub(crate) enum Failure {
     Input(anyhow::Error),
     /// The work itself failed.
     Run(anyhow::Error),
+    /// The user broke the work off.
+    Interrupted,
 }
 
 impl Failure {
-    /// Exit code: 1 for work that failed, 2 for bad input.
+    /// Exit code: 1 for work that failed, 2 for bad input, 130 for an interrupt.
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::Run(_) => 1,
             Self::Scene(_) | Self::Input(_) => 2,
+            Self::Interrupted => 130,
         }
     }
 
@@ -32,6 +35,7 @@ impl Failure {
                 eprint!("{}", render::scene_error(error, std::io::stderr().is_terminal()));
             }
             Self::Input(error) | Self::Run(error) => eprintln!("error: {error:#}"),
+            Self::Interrupted => eprintln!("interrupted; the results so far are kept"),
         }
     }
 }

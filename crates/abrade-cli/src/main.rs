@@ -8,8 +8,10 @@
 mod arguments;
 mod check;
 mod clump;
+mod digest;
 mod failure;
 mod output_folder;
+mod progress;
 mod quantity_text;
 mod render;
 mod run;

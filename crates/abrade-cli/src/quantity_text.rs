@@ -1,5 +1,15 @@
 //! Numbers with units, for people.
 
+/// A volume [m3] in the unit that suits it.
+pub(crate) fn volume(value: f64) -> String {
+    let (factor, unit) = match value.abs() {
+        size if size >= 1e-6 => (1e-6, "cm3"),
+        size if size >= 1e-14 || size == 0.0 => (1e-9, "mm3"),
+        _ => (1e-18, "um3"),
+    };
+    format!("{} {unit}", digits(value / factor))
+}
+
 /// `value` [m] with three digits, in the unit that suits it.
 pub(crate) fn length(value: f64) -> String {
     scaled(value, &[(1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm")])

@@ -1,21 +1,40 @@
 //! `abrade run`.
 
-use anyhow::anyhow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use abrade_scene::{Outcome, RunOptions};
 
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
-use crate::output_folder;
+use crate::progress::Bar;
+use crate::{digest, output_folder, say};
 
-/// Loads and checks the scene, makes sure of its folder, and runs it.
+/// Loads and checks the scene, makes sure of its folder, runs it and says what came of it.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let checked = abrade_scene::load(&arguments.scene.scene, &arguments.scene.sets)?;
     let folder = output_folder::chosen(arguments.out.as_deref(), &checked.scene.name);
     output_folder::probe(&folder)?;
-    Err(Failure::Run(anyhow!(
-        "running is not wired yet: `{}` in {:?}, into `{}`{}",
-        checked.scene.name,
-        arguments.precision,
-        folder.display(),
-        if arguments.json { ", as JSON" } else { "" }
-    )))
+    let stop = Arc::new(AtomicBool::new(false));
+    let seen = Arc::clone(&stop);
+    // Without a handler an interrupt ends the process as it always did.
+    let _ = ctrlc::set_handler(move || seen.store(true, Ordering::Relaxed));
+    let options = RunOptions { folder, precision: arguments.precision.into() };
+    let mut bar = Bar::new(&stop);
+    let outcome = abrade_scene::run(&checked, &options, &mut bar);
+    bar.clear();
+    let Outcome { summary, failure, interrupted } =
+        outcome.map_err(|error| Failure::Run(error.into()))?;
+    match arguments.json {
+        true => {
+            let json = summary.to_json().map_err(|error| Failure::Run(error.into()))?;
+            say::say(&format!("{json}\n"))?;
+        }
+        false => say::say(&digest::digest(&checked, &summary, &options.folder))?,
+    }
+    match (failure, interrupted) {
+        (Some(error), _) => Err(Failure::Run(error.into())),
+        (None, true) => Err(Failure::Interrupted),
+        (None, false) => Ok(()),
+    }
 }

@@ -23,6 +23,7 @@ pub use abrade;
 pub use rapier;
 
 mod derive;
+mod drive;
 mod error;
 mod event;
 mod gate;

@@ -5,6 +5,7 @@ use nalgebra::{Isometry3, Vector3};
 use rapier::dynamics::RigidBodyHandle;
 
 use crate::path::Extent;
+use crate::surface::SurfaceId;
 
 /// An accepted contact step of one body.
 pub struct MicroStep<'a, 'b> {
@@ -14,6 +15,8 @@ pub struct MicroStep<'a, 'b> {
     pub time: f64,
     /// The frame of the integration, in the world.
     pub frame: &'a Isometry3<f64>,
+    /// Names of the surfaces of `instant`, in its order.
+    pub surfaces: &'a [SurfaceId],
     /// State, force, surfaces and ledger in that frame; its own time counts from the last call
     /// into the core.
     pub instant: &'a Instant<'a, 'b>,
@@ -47,6 +50,7 @@ pub(crate) struct Relay<'a> {
     pub observer: &'a mut dyn WearObserver,
     pub body: RigidBodyHandle,
     pub frame: Isometry3<f64>,
+    pub surfaces: Vec<SurfaceId>,
     /// Time of the embedder's step at which the call into the core began [s].
     pub began: f64,
     /// Box around the centres of mass seen, in `frame`.
@@ -60,6 +64,7 @@ impl Observer for Relay<'_> {
             body: self.body,
             time: self.began + instant.time,
             frame: &self.frame,
+            surfaces: &self.surfaces,
             instant,
         });
     }

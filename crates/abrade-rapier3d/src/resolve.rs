@@ -114,7 +114,8 @@ impl WearWorld {
         let seen = Extent { low: state.position, high: state.position };
         let loads = gate::loads(rb, &gravity, &frame);
         let errand = Errand { way, loads, dt, until };
-        let mut relay = Relay { observer, body: handle, frame, began: 0.0, seen };
+        let met = live.surfaces.clone();
+        let mut relay = Relay { observer, body: handle, frame, surfaces: met, began: 0.0, seen };
         let before: Vec<f64> = displaced(live, &self.surfaces).collect();
         let advance = live.carry(body, &mut self.surfaces, &self.lies, &errand, &mut relay)?;
         let after = displaced(live, &self.surfaces);

@@ -1,7 +1,7 @@
 //! One step of the embedder's world: choose, resolve, steer, engine, settle.
 
 use abrade::Until;
-use nalgebra::Vector3;
+use nalgebra::{Isometry3, Vector3};
 use rapier::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
 use rapier::geometry::ColliderSet;
 use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
@@ -11,6 +11,7 @@ use crate::gate::{self, Course};
 use crate::guard::WearGuard;
 use crate::observer::WearObserver;
 use crate::settings::StepReport;
+use crate::surface::WornCollider;
 use crate::tracked::Tracked;
 use crate::view::WorldView;
 use crate::world::{Current, WearWorld};
@@ -83,6 +84,14 @@ impl WearWorld {
                 self.resolve(self.candidates[at], &world, until, observer);
             }
             self.steer(&mut world, &gravity);
+            if !self.driven.is_empty() {
+                let colliders = &*world.colliders;
+                let pose = |worn: &WornCollider| {
+                    colliders.get(worn.proxy).map_or_else(Isometry3::identity, |c| worn.pose(c))
+                };
+                let frames: Vec<_> = self.surfaces.iter().map(pose).collect();
+                self.carry_driven(&frames, world.bodies, observer);
+            }
         }
         WearGuard { taken: &self.taken, user: hooks, dt: self.current.dt }
     }

@@ -8,6 +8,7 @@ use nalgebra::Isometry3;
 use rapier::dynamics::{RigidBodyHandle, RigidBodySet};
 use rapier::geometry::ColliderSet;
 
+use crate::drive::DrivenBody;
 use crate::error::WearError;
 use crate::event::WearEvent;
 use crate::gate::Lie;
@@ -36,6 +37,7 @@ pub struct WearWorld {
     /// Bodies carried through this step.
     pub(crate) integrated: Vec<Integrated>,
     pub(crate) steered: Vec<Steered>,
+    pub(crate) driven: Vec<DrivenBody>,
     pub(crate) events: Vec<WearEvent>,
     pub(crate) counters: Counters,
     /// Energies of encounters that have ended.
@@ -85,6 +87,12 @@ impl WearWorld {
         self.state_from(&Isometry3::identity(), handle, bodies)
     }
 
+    /// State of a driven body in the world.
+    pub fn driven_state(&self, handle: RigidBodyHandle, colliders: &ColliderSet) -> Option<State> {
+        let driven = self.driven.iter().find(|driven| driven.handle == handle)?;
+        Some(driven.state(&self.frame(driven.surface(), colliders).ok()?))
+    }
+
     /// State of a body in the frame that `frame` places, such as a surface's.
     pub fn state_from(
         &self,
@@ -124,6 +132,7 @@ impl WearWorld {
         for live in self.bodies.iter().flatten().filter_map(|tracked| tracked.live.as_ref()) {
             sum += *live.encounter.ledger();
         }
+        self.driven.iter().for_each(|driven| sum += *driven.ledger());
         sum
     }
 

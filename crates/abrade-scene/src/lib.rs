@@ -1,7 +1,7 @@
 //! Scene files (RON): read, checked with every fault at its place, built into the surfaces and
-//! bodies of `abrade`. Also clump files. Runs nothing and prints nothing.
+//! bodies of `abrade`, run in Rapier. Also clump files. Prints nothing.
 //!
-//! `load` -> [`Checked`] -> [`Checked::build`] -> [`Built`].
+//! `load` -> [`Checked`] -> [`Checked::build`] -> [`Built`]; [`run`] does the rest.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 #![allow(rustdoc::broken_intra_doc_links, reason = "units stand in brackets")]
@@ -15,6 +15,7 @@ mod place;
 mod problem;
 mod reference;
 mod refusal;
+mod run;
 pub mod scene;
 mod set;
 mod size;
@@ -26,6 +27,7 @@ pub use check::Checked;
 pub use load::{load, load_text};
 pub use problem::{Mark, Problem, SceneError, Source};
 pub use reference::{Field, fields, schema};
+pub use run::{Outcome, Precision, Progress, RunError, RunOptions, run};
 pub use scene::Scene;
 pub use size::{Size, SurfaceSize};
 pub use solid::Solid;

@@ -1,0 +1,76 @@
+//! The short summary that `abrade run` prints.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use abrade_report::Summary;
+use abrade_scene::Checked;
+use abrade_scene::scene::Output;
+
+use crate::quantity_text::{length, volume};
+
+/// What a run did, in a few lines.
+pub(crate) fn digest(checked: &Checked, summary: &Summary, folder: &Path) -> String {
+    let mut text = String::new();
+    let _ = write_digest(&mut text, checked, summary, folder);
+    text
+}
+
+fn write_digest(
+    out: &mut String,
+    checked: &Checked,
+    summary: &Summary,
+    folder: &Path,
+) -> std::fmt::Result {
+    writeln!(out, "{}", summary.scene)?;
+    for (name, surface) in &summary.surfaces {
+        let mut parts = format!(
+            "displaced {}, deepest {}, {} of {} nodes",
+            volume(surface.wear_volume),
+            length(surface.max_depth),
+            surface.worn_nodes,
+            surface.nodes
+        );
+        if surface.removed_volume != surface.wear_volume {
+            write!(parts, ", removed {}", volume(surface.removed_volume))?;
+        }
+        if surface.chip_volume > 0.0 {
+            write!(parts, ", chips {}", volume(surface.chip_volume))?;
+        }
+        if let Some(rate) = surface.wear_rate {
+            write!(parts, ", {:.4} mm3 per mm", rate * 1e6)?;
+        }
+        writeln!(out, "  surface {name:12} {parts}")?;
+    }
+    for (name, body) in &summary.bodies {
+        let line = match (body.restitution, body.rebound_angle) {
+            (Some(restitution), Some(angle)) => {
+                format!("restitution {restitution:.4}, leaves at {angle:.1} deg")
+            }
+            _ => {
+                let [x, y, z] = body.mean_force;
+                format!("mean force ({x:.4e}, {y:.4e}, {z:.4e}) N")
+            }
+        };
+        writeln!(out, "  body    {name:12} {line}")?;
+    }
+    if let Some(energy) = &summary.energy {
+        writeln!(
+            out,
+            "  energy  {:.4e} J at the start: kinetic {:.4e}, wear {:.4e}, friction {:.4e}, \
+             numerical {:.1e}",
+            energy.initial, energy.kinetic, energy.wear, energy.friction, energy.numerical
+        )?;
+    }
+    for warning in &summary.warnings {
+        writeln!(out, "  note: {warning}")?;
+    }
+    writeln!(
+        out,
+        "  {:.3e} s simulated, {} contact steps, {} node evaluations, {:.3} s ({})",
+        summary.simulated, summary.steps, summary.node_evaluations, summary.wall, summary.precision
+    )?;
+    let picture = checked.scene.outputs.contains(&Output::Picture);
+    let file = if picture { "surface.png and more" } else { "summary.json" };
+    writeln!(out, "  {file} in {}", folder.display())
+}

@@ -1,0 +1,117 @@
+//! Driven bodies: kinematic in Rapier, carried by the core's indentation and slide.
+
+use abrade::{Body, Drive, Driven, Ledger, PhysicsError, Placed};
+use nalgebra::Isometry3;
+use rapier::dynamics::{RigidBodyHandle, RigidBodySet};
+
+use crate::error::WearError;
+use crate::observer::{Relay, WearObserver};
+use crate::path::Extent;
+use crate::scalar;
+use crate::surface::{SurfaceId, WornCollider};
+use crate::world::WearWorld;
+
+/// A driven body and its course; the core's state is in the surface's frame.
+pub(crate) struct DrivenBody {
+    pub handle: RigidBodyHandle,
+    surface: SurfaceId,
+    body: Body,
+    driven: Driven,
+    indented: bool,
+}
+
+impl WearWorld {
+    /// Drives `body`, whose state is given in the frame of `surface`: the first step presses it
+    /// in, the following ones slide it. Its rigid body must be position-based kinematic; Rapier
+    /// follows the core.
+    ///
+    /// # Errors
+    /// There is no such body, or it is not kinematic; a drive that the surface's laws refuse.
+    pub fn drive(
+        &mut self,
+        surface: SurfaceId,
+        handle: RigidBodyHandle,
+        mut body: Body,
+        drive: Drive,
+        bodies: &RigidBodySet,
+    ) -> Result<(), WearError> {
+        let rb = bodies.get(handle).filter(|rb| rb.is_kinematic());
+        rb.ok_or(WearError::NoSuchBody { body: handle })?;
+        let worn = &self.surfaces[surface.0].surface;
+        let driven = Driven::new(&mut body, worn, drive, self.settings.encounter())
+            .map_err(|source| WearError::Physics { body: handle, surface, source })?;
+        self.driven.push(DrivenBody { handle, surface, body, driven, indented: false });
+        Ok(())
+    }
+
+    /// The course of a driven body.
+    pub fn driven(&self, handle: RigidBodyHandle) -> Option<&Driven> {
+        self.driven.iter().find(|d| d.handle == handle).map(|d| &d.driven)
+    }
+
+    /// Carries every driven body through the step under way.
+    pub(crate) fn carry_driven(
+        &mut self,
+        frames: &[Isometry3<f64>],
+        bodies: &mut RigidBodySet,
+        observer: &mut dyn WearObserver,
+    ) {
+        let dt = self.current.dt;
+        for driven in &mut self.driven {
+            let worn = &mut self.surfaces[driven.surface.0];
+            let frame = frames[driven.surface.0];
+            let (body, surface) = (driven.handle, driven.surface);
+            match driven.carry(worn, frame, dt, observer) {
+                Ok(advance) => self.counters.add(&advance),
+                Err(source) => {
+                    let failure = WearError::Physics { body, surface, source };
+                    self.current.failure.get_or_insert(failure);
+                }
+            }
+            if let Some(rb) = bodies.get_mut(body) {
+                let state = driven.body.state.placed_by(&frame);
+                rb.set_next_kinematic_position(scalar::to_pose(&state.pose()));
+            }
+        }
+    }
+}
+
+impl DrivenBody {
+    fn carry(
+        &mut self,
+        worn: &mut WornCollider,
+        frame: Isometry3<f64>,
+        dt: f64,
+        observer: &mut dyn WearObserver,
+    ) -> Result<abrade::Advance, PhysicsError> {
+        let seen = Extent { low: self.body.state.position, high: self.body.state.position };
+        let surfaces = vec![self.surface];
+        let mut relay = Relay { observer, body: self.handle, frame, surfaces, began: 0.0, seen };
+        let pose = Isometry3::identity();
+        let mut placed = [Placed { surface: &mut worn.surface, pose }];
+        let mut steps = 0;
+        if !self.indented {
+            steps = self.driven.indent(&mut self.body, &mut placed, &mut relay)?.steps;
+            self.indented = true;
+        }
+        if self.driven.is_done() {
+            return Ok(abrade::Advance { steps, ..Default::default() });
+        }
+        let mut advance = self.driven.advance(&mut self.body, &mut placed, dt, &mut relay)?;
+        advance.steps += steps;
+        Ok(advance)
+    }
+
+    /// State in the world.
+    pub fn state(&self, frame: &Isometry3<f64>) -> abrade::State {
+        self.body.state.placed_by(frame)
+    }
+
+    pub fn ledger(&self) -> &Ledger {
+        self.driven.ledger()
+    }
+
+    pub fn surface(&self) -> SurfaceId {
+        self.surface
+    }
+}

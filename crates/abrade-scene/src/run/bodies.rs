@@ -1,0 +1,191 @@
+//! What a run remembers of its bodies for the summary and the stop rule.
+
+use abrade::{Inertia, State};
+use nalgebra::{Isometry3, Vector3};
+
+use crate::build::Built;
+use crate::check::Checked;
+use crate::run::engine::{Engine, Sample, Stepped};
+use crate::scene::{Motion, Placement};
+
+/// Speed over the body's largest speed below which it counts as resting.
+const REST: f64 = 1e-6;
+
+/// All bodies, in the scene's order, and where the surfaces lie.
+pub(crate) struct Bodies {
+    pub tracks: Vec<Track>,
+    /// Frames of the surfaces in the world.
+    pub frames: Vec<Isometry3<f64>>,
+    /// Contacts that have ended.
+    pub impacts: u64,
+    /// Bodies left to the engine near a surface, with the reason and how often.
+    pub refused: Vec<(String, String, u64)>,
+    surface_names: Vec<String>,
+}
+
+/// One body.
+pub(crate) struct Track {
+    pub name: String,
+    pub inertia: Inertia,
+    pub start: State,
+    /// Frame whose z is the surface that the body is aimed at.
+    pub aim: Isometry3<f64>,
+    /// Velocity before the first contact [m/s].
+    pub approach: Option<Vector3<f64>>,
+    /// Where its centre of mass was at the first touch, in the world.
+    pub landing: Option<nalgebra::Point3<f64>>,
+    /// Impulse of the surfaces [N s] and time in contact [s].
+    pub impulse: Vector3<f64>,
+    pub contact_time: f64,
+    pub slide: Option<Slide>,
+    last_velocity: Vector3<f64>,
+    top_speed: f64,
+}
+
+/// The slide of a driven body.
+pub(crate) struct Slide {
+    pub distance: f64,
+    /// Length at the end over which the wear rate is taken [m].
+    pub rate_over: f64,
+    pub surface: usize,
+    /// Volume of the surface when the last `rate_over` began, and now [m3].
+    pub rate_from: Option<f64>,
+    pub volume: f64,
+    travelled: f64,
+    start: Vector3<f64>,
+    force_sum: Vector3<f64>,
+}
+
+impl Bodies {
+    pub(crate) fn new(checked: &Checked, built: &Built) -> Self {
+        let frames: Vec<_> = built.surfaces.values().map(|surface| surface.pose).collect();
+        let index = |name: &str| built.surfaces.keys().position(|key| key == name);
+        let tracks = built.bodies.iter().map(|(name, body)| {
+            let scene = &checked.scene.bodies[name];
+            let surface = match &scene.position {
+                Placement::OnSurface { surface, .. } => index(surface),
+                Placement::At { .. } => None,
+            };
+            let slide = match &scene.motion {
+                Motion::Drive { distance, rate_over, .. } => Some(Slide {
+                    distance: *distance,
+                    rate_over: rate_over.unwrap_or(0.5 * distance).min(*distance),
+                    surface: surface.unwrap_or(0),
+                    rate_from: None,
+                    volume: 0.0,
+                    travelled: 0.0,
+                    start: body.state.position.coords,
+                    force_sum: Vector3::zeros(),
+                }),
+                _ => None,
+            };
+            let aim = surface.or(if frames.is_empty() { None } else { Some(0) });
+            Track {
+                name: name.clone(),
+                inertia: body.inertia,
+                start: body.state,
+                aim: aim.map_or_else(Isometry3::identity, |i| frames[i]),
+                approach: None,
+                landing: None,
+                impulse: Vector3::zeros(),
+                contact_time: 0.0,
+                slide,
+                last_velocity: body.state.velocity,
+                top_speed: body.state.velocity.norm(),
+            }
+        });
+        Self {
+            tracks: tracks.collect(),
+            frames: frames.clone(),
+            impacts: 0,
+            refused: Vec::new(),
+            surface_names: built.surfaces.keys().cloned().collect(),
+        }
+    }
+
+    /// Looks at a contact step.
+    pub(crate) fn see(&mut self, sample: &Sample<'_>) {
+        let track = &mut self.tracks[sample.body];
+        if sample.force != Vector3::zeros() && track.approach.is_none() {
+            track.approach = Some(track.last_velocity);
+            track.landing = Some(sample.state.position);
+        }
+        track.last_velocity = sample.state.velocity;
+        if let Some(slide) = &mut track.slide {
+            let volume = sample.surfaces.first().map_or(0.0, |(_, s)| s.worn().displaced());
+            slide.see(sample, volume);
+        }
+    }
+
+    /// Takes in what a step did.
+    pub(crate) fn settle(&mut self, engine: &dyn Engine, stepped: &Stepped) {
+        for ended in &stepped.ended {
+            self.impacts += 1;
+            let track = &mut self.tracks[ended.body];
+            track.impulse += ended.impulse;
+            track.contact_time += ended.contact_time;
+        }
+        for (body, surface, why) in &stepped.refused {
+            let what = format!(
+                "`{}` on `{}`",
+                self.tracks[*body].name,
+                self.surface_names.get(*surface).map_or("", String::as_str)
+            );
+            match self.refused.iter_mut().find(|(w, reason, _)| *w == what && reason == why) {
+                Some((.., count)) => *count += 1,
+                None => self.refused.push((what, why.clone(), 1)),
+            }
+        }
+        for (body, track) in self.tracks.iter_mut().enumerate() {
+            track.last_velocity = engine.state(body).velocity;
+            track.top_speed = track.top_speed.max(track.last_velocity.norm());
+        }
+    }
+
+    /// True when every free body moves away from every surface, or rests.
+    pub(crate) fn all_away(&self, engine: &dyn Engine) -> bool {
+        self.tracks.iter().enumerate().all(|(body, track)| match &track.slide {
+            Some(_) => engine.driven(body).is_some_and(abrade::Driven::is_done),
+            None => {
+                let state = engine.state(body);
+                let rests = state.velocity.norm() <= REST * track.top_speed;
+                !engine.in_contact(body) && (rests || self.leaves(&state)) || rests
+            }
+        })
+    }
+
+    /// Away from every surface: rising over it, or below its plane.
+    fn leaves(&self, state: &State) -> bool {
+        self.frames.iter().all(|frame| {
+            let local = state.seen_from(frame);
+            local.velocity.z >= 0.0 || local.position.z < 0.0
+        })
+    }
+}
+
+impl Slide {
+    fn see(&mut self, sample: &Sample<'_>, volume: f64) {
+        let (before, from) = (self.travelled, self.volume);
+        self.travelled = (sample.state.position.coords - self.start).xy().norm();
+        self.volume = volume;
+        self.force_sum += sample.force * (self.travelled - before);
+        let threshold = self.distance - self.rate_over;
+        if self.rate_from.is_none() && self.distance > 0.0 && self.travelled >= threshold {
+            let length = self.travelled - before;
+            let share = if length > 0.0 { (threshold - before) / length } else { 1.0 };
+            self.rate_from = Some(from + share.clamp(0.0, 1.0) * (volume - from));
+        }
+    }
+
+    /// Volume per distance over the last `rate_over` [m2].
+    pub(crate) fn rate(&self) -> Option<f64> {
+        let from = self.rate_from?;
+        let over = self.travelled - (self.distance - self.rate_over);
+        (over > 0.0).then(|| (self.volume - from) / over)
+    }
+
+    /// Mean force over the distance slid [N].
+    pub(crate) fn mean_force(&self) -> Option<Vector3<f64>> {
+        (self.travelled > 0.0).then(|| self.force_sum / self.travelled)
+    }
+}

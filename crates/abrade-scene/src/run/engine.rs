@@ -1,0 +1,75 @@
+//! What a run needs of the physics engine, whatever its precision.
+
+use abrade::{Driven, Ledger, State, Surface};
+use nalgebra::Vector3;
+
+use crate::run::RunError;
+
+/// A world with wear surfaces and bodies, named by their index in the scene's order.
+pub(crate) trait Engine {
+    /// Steps by at most `dt` [s], showing every contact step to `watch`.
+    fn step(&mut self, dt: f64, watch: &mut dyn Watch) -> Result<Stepped, RunError>;
+
+    /// State of a body in the world.
+    fn state(&self, body: usize) -> State;
+
+    /// A surface.
+    fn surface(&self, surface: usize) -> &Surface;
+
+    /// True while nodes carry force on a body.
+    fn in_contact(&self, body: usize) -> bool;
+
+    /// The course of a driven body.
+    fn driven(&self, body: usize) -> Option<&Driven>;
+
+    /// Energies of all contacts so far.
+    fn ledger(&self) -> Ledger;
+
+    /// What was done so far.
+    fn counts(&self) -> Counts;
+}
+
+/// Sees contact steps.
+pub(crate) trait Watch {
+    /// Called once per contact step, body after body.
+    fn sample(&mut self, sample: &Sample<'_>);
+}
+
+/// A contact step of one body, in the world.
+pub(crate) struct Sample<'a> {
+    pub body: usize,
+    /// Time since the engine's step began [s].
+    pub time: f64,
+    pub state: State,
+    /// Force of the surfaces on the body [N].
+    pub force: Vector3<f64>,
+    /// The surfaces it meets, by index.
+    pub surfaces: &'a [(usize, &'a Surface)],
+    /// The body's own energies.
+    pub ledger: Option<&'a Ledger>,
+}
+
+/// What a step did.
+pub(crate) struct Stepped {
+    pub dt: f64,
+    /// True when a body's first exit ended it.
+    pub exited: bool,
+    pub ended: Vec<Ended>,
+    /// Bodies left to the engine near a surface: (body, surface, why).
+    pub refused: Vec<(usize, usize, String)>,
+}
+
+/// The end of a contact.
+pub(crate) struct Ended {
+    pub body: usize,
+    pub impulse: Vector3<f64>,
+    pub contact_time: f64,
+}
+
+/// What was done so far.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Counts {
+    pub micro: u64,
+    pub steps: u64,
+    pub node_evaluations: u64,
+}

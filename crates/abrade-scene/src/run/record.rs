@@ -1,0 +1,375 @@
+//! What a run writes while it goes: history, ParaView files; and at its end: picture, page,
+//! summary.
+
+use std::path::{Path, PathBuf};
+
+use abrade::Ledger;
+use abrade_report::history::{BodyRow, Columns, Row, SurfaceRow};
+use abrade_report::{History, Mark, Mesh, Picture, ReportError, Series, Summary, page, vtp};
+use nalgebra::Vector3;
+
+use crate::build::Built;
+use crate::check::Checked;
+use crate::run::bodies::Bodies;
+use crate::run::engine::{Engine, Sample, Watch};
+use crate::run::samples::Course;
+use crate::run::summary::energies;
+use crate::scene::Output;
+
+/// Largest number of history rows per engine step.
+const ROWS: f64 = 1e5;
+
+/// Writes what the scene asks for.
+pub(crate) struct Recorder {
+    time: f64,
+    folder: PathBuf,
+    title: String,
+    outputs: Vec<Output>,
+    history: Option<Timed<History>>,
+    frames: Option<Timed<Frames>>,
+    energies: bool,
+    courses: Vec<Course>,
+    /// Volumes of the surfaces when the next body's turn comes [m3].
+    volumes: Vec<f64>,
+    depths: Vec<f64>,
+    /// Energies of encounters that were over when the step began.
+    closed: Ledger,
+    last_ledgers: Vec<Ledger>,
+    surface_names: Vec<String>,
+}
+
+/// Something that is written every so often.
+struct Timed<T> {
+    it: T,
+    every: f64,
+    next: f64,
+}
+
+/// ParaView series.
+struct Frames {
+    surfaces: Vec<Series>,
+    bodies: Option<(Series, Vec<Mesh>)>,
+    at_end: bool,
+}
+
+impl Recorder {
+    pub(crate) fn new(
+        checked: &Checked,
+        built: &Built,
+        folder: &Path,
+    ) -> Result<Self, ReportError> {
+        let outputs = checked.scene.outputs.clone();
+        let energies = outputs.contains(&Output::Energy);
+        let surface_names: Vec<_> = built.surfaces.keys().cloned().collect();
+        let mut history = None;
+        let mut every_frame = None;
+        let mut at_end = false;
+        for output in &outputs {
+            match output {
+                Output::History { every } => {
+                    let columns = Columns {
+                        bodies: built.bodies.keys().cloned().collect(),
+                        surfaces: surface_names.clone(),
+                        energies,
+                    };
+                    let it = History::create(&folder.join("history.csv"), columns)?;
+                    history = Some(Timed { it, every: *every, next: *every });
+                }
+                Output::Surface { every: Some(every), .. } => every_frame = Some(*every),
+                Output::Surface { every: None, .. } => at_end = true,
+                _ => {}
+            }
+        }
+        let with_bodies = outputs.contains(&Output::Bodies);
+        let frames = match every_frame.is_some() || at_end || with_bodies {
+            true => {
+                let every = every_frame.unwrap_or(f64::INFINITY);
+                let it = Frames::new(built, &surface_names, folder, with_bodies, at_end)?;
+                Some(Timed { it, every, next: every })
+            }
+            false => None,
+        };
+        Ok(Self {
+            time: 0.0,
+            folder: folder.to_owned(),
+            title: checked.scene.name.clone(),
+            outputs,
+            history,
+            frames,
+            energies,
+            courses: Vec::new(),
+            volumes: vec![0.0; surface_names.len()],
+            depths: vec![0.0; surface_names.len()],
+            closed: Ledger::default(),
+            last_ledgers: vec![Ledger::default(); built.bodies.len()],
+            surface_names,
+        })
+    }
+
+    /// Simulated time [s].
+    pub(crate) fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Time until the next frame is due [s].
+    pub(crate) fn until_frame(&self) -> f64 {
+        self.frames.as_ref().map_or(f64::INFINITY, |frames| frames.next - self.time)
+    }
+
+    /// The state at the start.
+    pub(crate) fn begin(
+        &mut self,
+        engine: &dyn Engine,
+        bodies: &Bodies,
+    ) -> Result<(), ReportError> {
+        self.open_step(engine, bodies);
+        self.row(bodies, 0.0)?;
+        match &mut self.frames {
+            Some(frames) if frames.every.is_finite() => frames.it.write(engine, bodies, 0.0),
+            _ => Ok(()),
+        }
+    }
+
+    /// Gets ready for the contact steps of an engine step.
+    pub(crate) fn open_step(&mut self, engine: &dyn Engine, bodies: &Bodies) {
+        let count = self.volumes.len();
+        self.closed = engine.ledger();
+        self.courses.clear();
+        for body in 0..bodies.tracks.len() {
+            let live = engine.in_contact(body) || engine.driven(body).is_some();
+            let ledger = if live { self.last_ledgers[body] } else { Ledger::default() };
+            self.closed -= ledger;
+            let course = Course::new(count, engine.state(body), Vector3::zeros(), ledger);
+            self.courses.push(course);
+        }
+        for surface in 0..count {
+            let worn = engine.surface(surface).worn();
+            self.volumes[surface] = worn.displaced();
+            self.depths[surface] = worn.max_depth;
+        }
+    }
+
+    /// Sees the contact steps of an engine step.
+    pub(crate) fn watch<'a>(&'a mut self, bodies: &'a mut Bodies) -> Watcher<'a> {
+        let before = self.volumes.clone();
+        Watcher { recorder: self, bodies, before, body: usize::MAX }
+    }
+
+    /// Writes what fell into an engine step of length `dt` [s].
+    pub(crate) fn close_step(
+        &mut self,
+        engine: &dyn Engine,
+        bodies: &Bodies,
+        dt: f64,
+    ) -> Result<(), ReportError> {
+        self.rows(bodies, dt)?;
+        for (last, course) in self.last_ledgers.iter_mut().zip(&self.courses) {
+            *last = course.at(f64::INFINITY).ledger;
+        }
+        self.time += dt;
+        let time = self.time;
+        match &mut self.frames {
+            Some(frames) if time >= frames.next * (1.0 - f64::EPSILON) => {
+                frames.next += frames.every;
+                frames.it.write(engine, bodies, time)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Rows of the history: every instant due while a body is in contact, and the last one due.
+    fn rows(&mut self, bodies: &Bodies, dt: f64) -> Result<(), ReportError> {
+        let Some(Timed { every, next, .. }) = self.history else { return Ok(()) };
+        if next > self.time + dt {
+            return Ok(());
+        }
+        let due = ((self.time + dt - next) / every).floor();
+        let touching = self.courses.iter().filter_map(Course::contact);
+        let busy = touching.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
+        let mut written = 0.0;
+        for i in 0..=due as u64 {
+            let at = next + i as f64 * every - self.time;
+            let near = busy.is_some_and(|[from, to]| at >= from - every && at <= to + every);
+            if (near && written < ROWS) || i == due as u64 {
+                self.row(bodies, at)?;
+                written += 1.0;
+            }
+        }
+        if let Some(history) = &mut self.history {
+            history.next = next + (due + 1.0) * every;
+        }
+        Ok(())
+    }
+
+    /// A row `at` seconds into the step under way.
+    fn row(&mut self, bodies: &Bodies, at: f64) -> Result<(), ReportError> {
+        let Some(history) = &mut self.history else { return Ok(()) };
+        let mut ledger = self.closed;
+        let mut rows = Vec::with_capacity(self.courses.len());
+        for course in &self.courses {
+            let kept = course.at(at);
+            ledger += kept.ledger;
+            let mut state = kept.state;
+            if kept.force == Vector3::zeros() {
+                // Between contacts and after the last one it flies on.
+                state.position += state.velocity * (at - kept.time);
+            }
+            rows.push(BodyRow { state, force: kept.force });
+        }
+        let surfaces: Vec<_> = (0..self.volumes.len())
+            .map(|surface| {
+                let parts = self.courses.iter().map(|course| course.displaced(surface, at));
+                let (volume, depth) = parts.fold((0.0, 0.0f64), |(v, d), (w, e)| (v + w, d.max(e)));
+                SurfaceRow {
+                    wear_volume: self.volumes[surface] + volume,
+                    max_depth: self.depths[surface].max(depth),
+                }
+            })
+            .collect();
+        let energies = self.energies.then(|| {
+            let pairs = bodies.tracks.iter().zip(&rows);
+            let kinetic = pairs.map(|(track, row)| track.inertia.kinetic_energy(&row.state)).sum();
+            energies(ledger, bodies, kinetic)
+        });
+        history.it.push(&Row {
+            time: self.time + at,
+            bodies: &rows,
+            surfaces: &surfaces,
+            energies: energies.as_ref(),
+        })
+    }
+
+    /// Closes the files and writes those of the end.
+    pub(crate) fn finish(
+        self,
+        engine: &dyn Engine,
+        bodies: &Bodies,
+        summary: &Summary,
+    ) -> Result<(), ReportError> {
+        if let Some(history) = self.history {
+            history.it.finish()?;
+        }
+        if let Some(mut frames) = self.frames
+            && (frames.it.at_end || !frames.every.is_finite())
+        {
+            frames.it.write(engine, bodies, self.time)?;
+        }
+        let wants = |output: &Output| self.outputs.contains(output);
+        if wants(&Output::Picture) || wants(&Output::Report) {
+            for (index, name) in self.surface_names.iter().enumerate() {
+                let picture = picture(&self.title, engine, bodies, index)?;
+                let only = self.surface_names.len() == 1;
+                let stem = if only { "surface".to_owned() } else { format!("surface_{name}") };
+                if wants(&Output::Picture) {
+                    let path = self.folder.join(format!("{stem}.png"));
+                    abrade_report::atomic::write(&path, &picture)?;
+                }
+                if wants(&Output::Report) && index == 0 {
+                    page::write(&self.folder.join("report.html"), summary, Some(&picture))?;
+                }
+            }
+        }
+        summary.write(&self.folder.join("summary.json"))
+    }
+}
+
+/// The worn surface with the places where bodies came down.
+fn picture(
+    title: &str,
+    engine: &dyn Engine,
+    bodies: &Bodies,
+    surface: usize,
+) -> Result<Vec<u8>, ReportError> {
+    let frame = &bodies.frames[surface];
+    let marks: Vec<_> = bodies
+        .tracks
+        .iter()
+        .filter_map(|track| {
+            let landing = track.landing?;
+            let position_local = frame.inverse_transform_point(&landing);
+            Some(Mark { label: &track.name, position_local })
+        })
+        .collect();
+    let marks = if bodies.tracks.len() > 1 { &marks[..] } else { &[] };
+    Picture { title, nodes: engine.surface(surface).nodes(), marks }.to_png()
+}
+
+impl Frames {
+    fn new(
+        built: &Built,
+        names: &[String],
+        folder: &Path,
+        with_bodies: bool,
+        at_end: bool,
+    ) -> Result<Self, ReportError> {
+        let stem = |name: &String| match names.len() {
+            1 => "surface".to_owned(),
+            _ => format!("surface_{name}"),
+        };
+        let bodies = match with_bodies {
+            true => {
+                let meshes = built.bodies.values().map(|body| Mesh::of_shape(&body.shape));
+                Some((Series::new(folder, "bodies"), meshes.collect::<Result<_, _>>()?))
+            }
+            false => None,
+        };
+        Ok(Self {
+            surfaces: names.iter().map(|name| Series::new(folder, &stem(name))).collect(),
+            bodies,
+            at_end,
+        })
+    }
+
+    fn write(
+        &mut self,
+        engine: &dyn Engine,
+        bodies: &Bodies,
+        time: f64,
+    ) -> Result<(), ReportError> {
+        for (index, series) in self.surfaces.iter_mut().enumerate() {
+            let surface = engine.surface(index);
+            let (path, frame) = (series.next_path(), &bodies.frames[index]);
+            vtp::write_surface(&path, surface.nodes(), frame, &surface.triangles())?;
+            series.push(time);
+            series.write()?;
+        }
+        let Some((series, meshes)) = &mut self.bodies else { return Ok(()) };
+        let states: Vec<_> = (0..meshes.len()).map(|body| engine.state(body)).collect();
+        let placed: Vec<_> = meshes
+            .iter()
+            .zip(&states)
+            .map(|(mesh, state)| vtp::PlacedBody { mesh, state })
+            .collect();
+        vtp::write_bodies(&series.next_path(), &placed)?;
+        series.push(time);
+        series.write()
+    }
+}
+
+/// Passes contact steps to the recordings and to what the run remembers of its bodies.
+pub(crate) struct Watcher<'a> {
+    recorder: &'a mut Recorder,
+    bodies: &'a mut Bodies,
+    /// Volumes when the present body's turn came, and the body.
+    before: Vec<f64>,
+    body: usize,
+}
+
+impl Watch for Watcher<'_> {
+    fn sample(&mut self, sample: &Sample<'_>) {
+        self.bodies.see(sample);
+        if self.recorder.history.is_none() {
+            return;
+        }
+        if sample.body != self.body {
+            self.body = sample.body;
+            for (surface, before) in self.before.iter_mut().enumerate() {
+                let courses = self.recorder.courses.iter();
+                let gained: f64 =
+                    courses.map(|course| course.displaced(surface, f64::INFINITY).0).sum();
+                *before = self.recorder.volumes[surface] + gained;
+            }
+        }
+        self.recorder.courses[sample.body].push(sample, &self.before);
+    }
+}

@@ -1,0 +1,143 @@
+//! From the end of a run to its `summary.json`.
+
+use std::collections::BTreeMap;
+
+use abrade::{ElasticLaw, Ledger};
+use abrade_report::Summary;
+use abrade_report::summary::{
+    BodySummary, EnergySummary, ErrorEstimate, ResolverCounts, SurfaceSummary,
+};
+
+use crate::check::Checked;
+use crate::run::bodies::{Bodies, Track};
+use crate::run::engine::Engine;
+use crate::run::stop::End;
+use crate::run::{Precision, RunError};
+use crate::scene::Output;
+
+/// Nodes under the largest contact below which its result depends on the lattice.
+const FEW_NODES: usize = 12;
+
+/// What a summary is made of.
+pub(crate) struct Run<'a> {
+    pub checked: &'a Checked,
+    pub engine: &'a dyn Engine,
+    pub bodies: &'a Bodies,
+    pub precision: Precision,
+    pub simulated: f64,
+    pub wall: f64,
+    pub end: End,
+    pub failure: Option<&'a RunError>,
+}
+
+/// The summary of a run.
+pub(crate) fn summary(run: &Run<'_>) -> Summary {
+    let counts = run.engine.counts();
+    let names = run.checked.scene.surfaces.keys();
+    let surfaces: BTreeMap<_, _> =
+        names.enumerate().map(|(i, name)| (name.clone(), surface(run, i))).collect();
+    let tracks = run.bodies.tracks.iter().enumerate();
+    let bodies = tracks.map(|(i, track)| (track.name.clone(), body(run, i, track))).collect();
+    let energy = run.checked.scene.outputs.contains(&Output::Energy).then(|| {
+        let tracks = run.bodies.tracks.iter().enumerate();
+        let kinetic = tracks.map(|(i, t)| t.inertia.kinetic_energy(&run.engine.state(i))).sum();
+        energies(run.engine.ledger(), run.bodies, kinetic)
+    });
+    let stop = match run.failure {
+        Some(failure) => format!("{}: {failure}", run.end.words()),
+        None => run.end.words().to_owned(),
+    };
+    Summary {
+        scene: run.checked.scene.name.clone(),
+        abrade: env!("CARGO_PKG_VERSION").to_owned(),
+        complete: run.end.is_complete(),
+        precision: match run.precision {
+            Precision::Single => "f32".to_owned(),
+            Precision::Double => "f64".to_owned(),
+        },
+        resolver: ResolverCounts { micro: counts.micro, quasi_static: 0, lockstep: 0 },
+        wall: run.wall,
+        simulated: run.simulated,
+        steps: counts.steps,
+        node_evaluations: counts.node_evaluations,
+        error_estimate: error_estimate(energy.as_ref()),
+        surfaces,
+        bodies,
+        energy,
+        warnings: warnings(run),
+        stop: Some(stop),
+    }
+}
+
+fn surface(run: &Run<'_>, index: usize) -> SurfaceSummary {
+    let surface = run.engine.surface(index);
+    let slides = run.bodies.tracks.iter().filter_map(|track| track.slide.as_ref());
+    SurfaceSummary {
+        indented_area: surface.worn().indented_area,
+        wear_rate: slides.filter(|slide| slide.surface == index).find_map(|slide| slide.rate()),
+        ..SurfaceSummary::of(surface.nodes(), surface.worn())
+    }
+}
+
+fn body(run: &Run<'_>, index: usize, track: &Track) -> BodySummary {
+    let state = run.engine.state(index);
+    let slide = track.slide.as_ref();
+    let mean = slide.and_then(|slide| slide.mean_force());
+    let impact = (track.contact_time > 0.0).then(|| track.impulse / track.contact_time);
+    let force = mean.or(impact).unwrap_or_default();
+    let approach = track.approach.filter(|v| slide.is_none() && v.norm() > 0.0);
+    let local = track.aim.inverse_transform_vector(&state.velocity);
+    BodySummary {
+        restitution: approach.map(|v| state.velocity.norm() / v.norm()),
+        rebound_angle: approach.map(|_| local.z.atan2(local.xy().norm()).to_degrees()),
+        mean_force: [force.x, force.y, force.z],
+        ..BodySummary::of(&state)
+    }
+}
+
+/// The energies of all bodies, `kinetic` [J] being theirs now. What the engine did to them
+/// outside of contacts counts as external work.
+pub(crate) fn energies(ledger: Ledger, bodies: &Bodies, kinetic: f64) -> EnergySummary {
+    let start = |track: &Track| track.inertia.kinetic_energy(&track.start);
+    let initial: f64 = bodies.tracks.iter().map(start).sum();
+    let outside = kinetic - initial - ledger.kinetic_change;
+    let ledger = Ledger {
+        external_work: ledger.external_work + outside,
+        kinetic_change: kinetic - initial,
+        ..ledger
+    };
+    EnergySummary::of(&ledger, initial + ledger.elastic_start, kinetic)
+}
+
+/// The ledger's numerical bucket over the energy that was turned over.
+fn error_estimate(energy: Option<&EnergySummary>) -> ErrorEstimate {
+    let Some(energy) = energy else { return ErrorEstimate::default() };
+    let turnover = energy.wear + energy.friction + energy.damping;
+    let time = (turnover > 0.0).then(|| energy.numerical.abs() / turnover);
+    let basis = "time: the ledger's numerical part over the energy dissipated";
+    ErrorEstimate { time, pitch: None, basis: time.map(|_| basis.to_owned()) }
+}
+
+fn warnings(run: &Run<'_>) -> Vec<String> {
+    let mut warnings = run.checked.notes.clone();
+    for (index, (name, scene)) in run.checked.scene.surfaces.iter().enumerate() {
+        let worn = run.engine.surface(index).worn();
+        let touching = worn.peak_touching;
+        if touching > 0 && touching < FEW_NODES {
+            let cure = match scene.elastic {
+                ElasticLaw::HertzNodes { .. } => {
+                    "the result depends on where the body lands between the nodes; average over \
+                     landings, or take `elastic: Foundation()` and a finer pitch"
+                }
+                _ => "the result depends on the lattice; take a finer pitch",
+            };
+            warnings.push(format!(
+                "the largest contact on `{name}` was carried by {touching} nodes: {cure}"
+            ));
+        }
+    }
+    for (what, why, count) in &run.bodies.refused {
+        warnings.push(format!("{what} was left to the engine in {count} steps, unworn: {why}"));
+    }
+    warnings
+}

@@ -1,0 +1,275 @@
+//! A scene in a Rapier world. Compiled once per precision: `super::plug` is the plug-in.
+
+use std::collections::{BTreeMap, HashMap};
+
+use abrade::{Body, Drive, Driven, Ledger, Piece, Shape, State, Surface, Until};
+use nalgebra::{Isometry3, Vector3};
+
+use super::plug::rapier::dynamics::{RigidBodyBuilder, RigidBodyHandle};
+use super::plug::rapier::geometry::ColliderBuilder;
+use super::plug::rapier::math::Real;
+use super::plug::rapier::pipeline::PhysicsWorld;
+use super::plug::{
+    MicroStep, SurfaceId, WearError, WearEvent, WearObserver, WearSettings, WearWorld, scalar,
+};
+use crate::build::{Built, BuiltSurface};
+use crate::run::RunError;
+use crate::run::engine::{Counts, Ended, Engine, Sample, Stepped, Watch};
+
+/// Thickness of a plate's proxy in lengths of the plate.
+const THICKNESS: f64 = 0.2;
+
+/// A scene in a Rapier world.
+pub(crate) struct World {
+    world: PhysicsWorld,
+    wear: WearWorld,
+    surfaces: Vec<SurfaceId>,
+    surface_names: Vec<String>,
+    bodies: Vec<RigidBodyHandle>,
+    body_names: Vec<String>,
+    /// Only looked up, so its order reaches no number.
+    indices: HashMap<RigidBodyHandle, usize>,
+    driven: Vec<bool>,
+}
+
+/// What a scene asks of its world.
+pub(crate) struct Wishes<'a> {
+    pub gravity: [f64; 3],
+    pub accuracy: f64,
+    pub ledger: bool,
+    pub until: Until,
+    /// Drives by body name, with the index of the surface.
+    pub drives: &'a BTreeMap<String, (usize, Drive)>,
+}
+
+impl World {
+    pub(crate) fn new(built: Built, wishes: &Wishes<'_>) -> Result<Self, RunError> {
+        let mut world = PhysicsWorld {
+            gravity: scalar::to_vector(&Vector3::from(wishes.gravity)),
+            ..PhysicsWorld::default()
+        };
+        let parameters = &mut world.integration_parameters;
+        parameters.normalized_max_linear_velocity = Real::MAX;
+        parameters.length_unit = scalar::narrow(length_unit(&built));
+        let settings = WearSettings {
+            accuracy: wishes.accuracy,
+            ledger: wishes.ledger,
+            until: wishes.until,
+            ..WearSettings::default()
+        };
+        let mut scene = Self {
+            world,
+            wear: WearWorld::new(settings),
+            surfaces: Vec::new(),
+            surface_names: Vec::new(),
+            bodies: Vec::new(),
+            body_names: Vec::new(),
+            indices: HashMap::new(),
+            driven: Vec::new(),
+        };
+        for (name, surface) in built.surfaces {
+            scene.surface_names.push(name);
+            scene.add_surface(surface)?;
+        }
+        for (name, body) in built.bodies {
+            let drive = wishes.drives.get(&name);
+            scene.body_names.push(name);
+            scene.add_body(body, drive)?;
+        }
+        Ok(scene)
+    }
+
+    /// Lays a box under the surface's nodes and the surface on it.
+    fn add_surface(&mut self, built: BuiltSurface) -> Result<(), RunError> {
+        let [low, high] = built.surface.bounds();
+        let size = high - low;
+        let margin = built.surface.pitch();
+        let thick = THICKNESS * size.amax() + margin;
+        let middle = low + size * 0.5 - Vector3::z() * (0.5 * thick);
+        let offset = Isometry3::translation(middle.x, middle.y, middle.z);
+        let half = [0.5 * size.x + margin, 0.5 * size.y + margin, 0.5 * thick].map(scalar::narrow);
+        let proxy = ColliderBuilder::cuboid(half[0], half[1], half[2])
+            .position(scalar::to_pose(&(built.pose * offset)));
+        let proxy = self.world.colliders.insert(proxy);
+        let colliders = &mut self.world.colliders;
+        let placed = self.wear.insert_at(built.surface, proxy, offset.inverse(), colliders);
+        let id = placed.map_err(|error| self.explain(error))?;
+        let exact = self.wear.place_surface(id, built.pose, &self.world.colliders);
+        exact.map_err(|error| self.explain(error))?;
+        self.surfaces.push(id);
+        Ok(())
+    }
+
+    fn add_body(&mut self, body: Body, drive: Option<&(usize, Drive)>) -> Result<(), RunError> {
+        let builder = match drive {
+            Some(_) => RigidBodyBuilder::kinematic_position_based(),
+            None => RigidBodyBuilder::dynamic(),
+        };
+        let mut builder = builder
+            .pose(scalar::to_pose(&body.state.pose()))
+            .linvel(scalar::to_vector(&body.state.velocity))
+            .angvel(scalar::to_vector(&body.state.spin));
+        if body.rotation_locked {
+            builder = builder.lock_rotations();
+        }
+        let handle = self.world.bodies.insert(builder);
+        let density = scalar::narrow(body.inertia.mass / volume_sum(&body.shape));
+        for piece in body.shape.pieces() {
+            let Some(collider) = collider(piece) else { continue };
+            let collider = collider.density(density);
+            self.world.colliders.insert_with_parent(collider, handle, &mut self.world.bodies);
+        }
+        self.indices.insert(handle, self.bodies.len());
+        self.bodies.push(handle);
+        self.driven.push(drive.is_some());
+        let done = match drive {
+            Some((surface, drive)) => {
+                let id = self.surfaces[*surface];
+                self.wear.frame(id, &self.world.colliders).and_then(|frame| {
+                    let state = body.state.seen_from(&frame);
+                    let body = Body { state, ..body };
+                    self.wear.drive(id, handle, body, *drive, &self.world.bodies)
+                })
+            }
+            None => self.wear.place(handle, body, &mut self.world.bodies, &self.world.colliders),
+        };
+        done.map_err(|error| self.explain(error))
+    }
+
+    /// The error with the scene's names.
+    fn explain(&self, error: WearError) -> RunError {
+        let WearError::Physics { body, surface, source } = error else {
+            return RunError::Engine { what: error.to_string() };
+        };
+        let body = self.indices.get(&body).and_then(|&i| self.body_names.get(i));
+        let surface = self.surfaces.iter().position(|id| *id == surface);
+        RunError::Physics {
+            body: body.cloned().unwrap_or_default(),
+            surface: surface.and_then(|i| self.surface_names.get(i)).cloned().unwrap_or_default(),
+            source,
+        }
+    }
+}
+
+impl Engine for World {
+    fn step(&mut self, dt: f64, watch: &mut dyn Watch) -> Result<Stepped, RunError> {
+        self.world.integration_parameters.dt = scalar::narrow(dt);
+        let mut relay = Relay { watch, indices: &self.indices, surfaces: &self.surfaces };
+        let report = self.wear.step_observed(&mut self.world, &(), &(), &mut relay);
+        let report = report.map_err(|error| self.explain(error))?;
+        let mut stepped = Stepped {
+            dt: report.dt,
+            exited: report.exited.is_some(),
+            ended: Vec::new(),
+            refused: Vec::new(),
+        };
+        let surface_index =
+            |id: SurfaceId| self.surfaces.iter().position(|other| *other == id).unwrap_or(0);
+        for event in self.wear.events() {
+            match event {
+                WearEvent::Ended { body, impulse, contact_time, .. } => stepped.ended.push(Ended {
+                    body: self.indices[body],
+                    impulse: *impulse,
+                    contact_time: *contact_time,
+                }),
+                WearEvent::NotResolved { body, surface, reason } => stepped.refused.push((
+                    self.indices[body],
+                    surface_index(*surface),
+                    reason.to_string(),
+                )),
+                WearEvent::Started { .. } | WearEvent::Failed { .. } => {}
+            }
+        }
+        Ok(stepped)
+    }
+
+    fn state(&self, body: usize) -> State {
+        let handle = self.bodies[body];
+        let state = match self.driven[body] {
+            true => self.wear.driven_state(handle, &self.world.colliders),
+            false => self.wear.state(handle, &self.world.bodies),
+        };
+        state.unwrap_or_else(|| State::at(nalgebra::Point3::origin()))
+    }
+
+    fn surface(&self, surface: usize) -> &Surface {
+        &self.wear[self.surfaces[surface]]
+    }
+
+    fn in_contact(&self, body: usize) -> bool {
+        self.wear.in_contact(self.bodies[body])
+    }
+
+    fn driven(&self, body: usize) -> Option<&Driven> {
+        self.wear.driven(self.bodies[body])
+    }
+
+    fn ledger(&self) -> Ledger {
+        self.wear.ledger()
+    }
+
+    fn counts(&self) -> Counts {
+        let counters = self.wear.counters();
+        Counts {
+            micro: counters.micro,
+            steps: counters.steps,
+            node_evaluations: counters.node_evaluations,
+        }
+    }
+}
+
+/// Passes contact steps on under the scene's indices.
+struct Relay<'a> {
+    watch: &'a mut dyn Watch,
+    indices: &'a HashMap<RigidBodyHandle, usize>,
+    surfaces: &'a [SurfaceId],
+}
+
+impl WearObserver for Relay<'_> {
+    fn micro_step(&mut self, step: &MicroStep<'_, '_>) {
+        let Some(&body) = self.indices.get(&step.body) else { return };
+        let index = |id: &SurfaceId| self.surfaces.iter().position(|other| other == id);
+        let met = step.surfaces.iter().zip(step.instant.surfaces);
+        let surfaces: Vec<(usize, &Surface)> =
+            met.filter_map(|(id, placed)| Some((index(id)?, &*placed.surface))).collect();
+        self.watch.sample(&Sample {
+            body,
+            time: step.time,
+            state: step.state_world(),
+            force: step.force_world(),
+            surfaces: &surfaces,
+            ledger: step.instant.ledger,
+        });
+    }
+}
+
+/// Rapier's collider for a piece about the centre of mass.
+fn collider(piece: &Piece) -> Option<ColliderBuilder> {
+    match piece {
+        Piece::Ball(ball) => Some(
+            ColliderBuilder::ball(scalar::narrow(ball.radius))
+                .translation(scalar::to_vector(&ball.centre.coords)),
+        ),
+        Piece::Hull(hull) => {
+            let points: Vec<_> =
+                hull.vertices().iter().map(|v| scalar::to_vector(&v.coords)).collect();
+            ColliderBuilder::convex_hull(&points)
+        }
+    }
+}
+
+/// Sum of the pieces' volumes, overlaps counted twice, as Rapier's densities do [m3].
+fn volume_sum(shape: &Shape) -> f64 {
+    let volume = |piece: &Piece| match piece {
+        Piece::Ball(ball) => 4.0 / 3.0 * std::f64::consts::PI * ball.radius.powi(3),
+        Piece::Hull(hull) => hull.volume(),
+    };
+    shape.pieces().iter().map(volume).sum()
+}
+
+/// The size of the smallest body [m]: Rapier's tolerances are fractions of it.
+fn length_unit(built: &Built) -> f64 {
+    let sizes = built.bodies.values().map(|body| 2.0 * body.shape.bounding_radius());
+    let smallest = sizes.fold(f64::INFINITY, f64::min);
+    if smallest.is_finite() { smallest } else { 1.0 }
+}
