@@ -58,14 +58,14 @@ pub enum RunError {
     #[error(transparent)]
     Build(#[from] BuildError),
     /// A contact left the reach of the model.
-    #[error("body `{body}` on surface `{surface}`: {source}")]
+    #[error("body `{body}` on surface `{surface}`: {reason}")]
     Physics {
         /// Name of the body.
         body: String,
         /// Name of the surface.
         surface: String,
         /// Why.
-        source: PhysicsError,
+        reason: PhysicsError,
     },
     /// The engine refused the scene.
     #[error("the engine refused the scene: {what}")]
@@ -77,12 +77,12 @@ pub enum RunError {
     #[error(transparent)]
     Report(#[from] ReportError),
     /// The results' folder cannot be made.
-    #[error("the folder `{}` cannot be made: {source}", folder.display())]
+    #[error("the folder `{}` cannot be made: {reason}", folder.display())]
     Folder {
         /// The folder.
         folder: PathBuf,
         /// Why not.
-        source: std::io::Error,
+        reason: std::io::Error,
     },
 }
 
@@ -110,7 +110,7 @@ pub fn run(
     let started = Instant::now();
     let built = checked.build()?;
     std::fs::create_dir_all(&options.folder)
-        .map_err(|source| RunError::Folder { folder: options.folder.clone(), source })?;
+        .map_err(|reason| RunError::Folder { folder: options.folder.clone(), reason })?;
     let mut bodies = Bodies::new(checked, &built);
     let mut recorder = Recorder::new(checked, &built, &options.folder)?;
     let mut engine = engine(checked, built, options.precision)?;

@@ -146,7 +146,7 @@ impl World {
         RunError::Physics {
             body: body.cloned().unwrap_or_default(),
             surface: surface.and_then(|i| self.surface_names.get(i)).cloned().unwrap_or_default(),
-            source,
+            reason: source,
         }
     }
 }
