@@ -3,10 +3,11 @@
 use nalgebra::{Point3, Vector3};
 
 use crate::body::State;
+use crate::extent::{bounds, bounds_below, clearance};
 use crate::grid::Grid;
-use crate::query::{bounds, clearance, column_meets};
 use crate::shape::{Piece, Shape};
 use crate::surface::Surface;
+use crate::sweep::Swept;
 
 /// A node in the cache: what the inner loop reads, side by side.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +35,11 @@ impl Candidates {
         margin - travel(shape, at, state)
     }
 
+    /// Bound of the distance that any point of the body moved since the cache was made [m].
+    pub(crate) fn travelled(&self, shape: &Shape, state: &State) -> f64 {
+        self.made.as_ref().map_or(f64::INFINITY, |(at, _)| travel(shape, at, state))
+    }
+
     /// Collects the nodes within `margin` [m] of the body, which is inflated by `inflation`.
     pub(crate) fn collect(
         &mut self,
@@ -59,25 +65,31 @@ impl Candidates {
     }
 
     /// Collects the nodes whose column, at or below the node, comes within `margin` [m] of the
-    /// body.
+    /// body that `swept` has placed at `state`, in the grid's order.
     pub(crate) fn collect_columns(
         &mut self,
         surface: &Surface,
         shape: &Shape,
         state: &State,
+        swept: &Swept,
         margin: f64,
     ) {
         self.slots.clear();
-        let [low, high] = reach_box(&surface.grid, shape, state, margin);
+        let [low, high] = match surface.level() {
+            Some(n) => {
+                let top = surface.grid.bounds()[1].coords.dot(&n) + margin;
+                bounds_below(shape, state, &n, top, margin)
+            }
+            None => bounds(shape, state, margin),
+        };
         let nodes = &surface.nodes;
         surface.grid.visit(&low, &high, |i| {
             let x = nodes.position(i);
             let n = nodes.normal[i];
-            if column_meets(shape, state, &x, &n, margin) {
+            if swept.meets(&x, &n, margin) {
                 self.slots.push(Slot { id: i as u32, x, n, area: nodes.rest_area[i] });
             }
         });
-        self.slots.sort_unstable_by_key(|slot| slot.id);
         self.made = Some((*state, margin));
     }
 

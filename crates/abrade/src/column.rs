@@ -59,6 +59,13 @@ impl Column {
         if self.is_cut() { self.voids.items[0][0] } else { 0.0 }
     }
 
+    /// Depth below the node down to which the column is open, without a roof over it [m].
+    #[inline]
+    pub(crate) fn open_depth(&self) -> f64 {
+        let [low, high] = self.voids.items[0];
+        if self.voids.count == 1 && high >= 0.0 { -low } else { 0.0 }
+    }
+
     /// Upper end of the solid on which a body whose deep end is at `z` stands [m].
     #[inline]
     pub(crate) fn level_below(&self, z: f64) -> f64 {

@@ -12,6 +12,12 @@ use crate::surface::Surface;
 const SWEEP_PITCH: f64 = 0.1;
 const SWEEP_YIELD: f64 = 0.4;
 
+/// Reach of a candidate list in displacements of the step, and its least value in pitches: small
+/// for springs, which ask every candidate, larger for columns, which know when they are due.
+const LIST_STEPS: f64 = 8.0;
+const LIST_PITCH: f64 = 0.05;
+const SWEPT_PITCH: f64 = 2.0;
+
 /// How a body meets a surface.
 #[derive(Clone, Debug)]
 pub(crate) enum Contact {
@@ -22,7 +28,11 @@ pub(crate) enum Contact {
 impl Contact {
     /// Bodies with faces and laws without springs go by the swept rule; `HertzNodes` puts a ball
     /// on every node and so knows no faces.
-    pub(crate) fn new(shape: &Shape, surface: &Surface) -> Result<Self, PhysicsError> {
+    pub(crate) fn new(
+        shape: &Shape,
+        surface: &Surface,
+        keeps_ledger: bool,
+    ) -> Result<Self, PhysicsError> {
         let laws = &surface.laws;
         let rigid = laws.elastic == ElasticLaw::Rigid;
         if laws.flow == (FlowLaw::CapozzaHanley { lateral: Lateral::Eq5 }) {
@@ -37,7 +47,7 @@ impl Contact {
         let hertz = matches!(laws.elastic, ElasticLaw::HertzNodes { .. });
         Ok(match rigid || (shape.has_faces() && !hertz) {
             true => Self::Columns(Columns::new(shape, laws)),
-            false => Self::Springs(Patch::new(shape, surface)),
+            false => Self::Springs(Patch::new(shape, surface, keeps_ledger)),
         })
     }
 
@@ -70,18 +80,21 @@ impl Contact {
         Some(if self.is_rigid() { pitch } else { pitch.min(SWEEP_YIELD * columns.yield_overlap()) })
     }
 
-    pub(crate) fn cover(&mut self, surface: &Surface, shape: &Shape, state: &State, margin: f64) {
+    /// Makes sure that the candidates cover the body at `state`, which moves by `reach` [m] in a
+    /// step.
+    pub(crate) fn cover(&mut self, surface: &Surface, shape: &Shape, state: &State, reach: f64) {
+        let margin = |pitches: f64| (LIST_STEPS * reach).max(pitches * surface.pitch());
         match self {
-            Self::Springs(patch) => patch.cover(surface, shape, state, margin),
-            Self::Columns(columns) => columns.cover(surface, shape, state, margin),
+            Self::Springs(patch) => patch.cover(surface, shape, state, margin(LIST_PITCH)),
+            Self::Columns(columns) => columns.cover(surface, shape, state, margin(SWEPT_PITCH)),
         }
     }
 
     /// Largest overlap of a node with the body at `state` [m].
-    pub(crate) fn deepest(&mut self, shape: &Shape, state: &State) -> f64 {
+    pub(crate) fn deepest(&mut self, surface: &Surface, shape: &Shape, state: &State) -> f64 {
         match self {
             Self::Springs(patch) => patch.deepest(state),
-            Self::Columns(columns) => columns.deepest(shape, state),
+            Self::Columns(columns) => columns.deepest(surface, shape, state),
         }
     }
 

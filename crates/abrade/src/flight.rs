@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::body::{Body, State};
 use crate::contact::Contact;
 use crate::encounter::Loads;
-use crate::query::bounds;
+use crate::extent::bounds;
 use crate::shape::Piece;
 use crate::surface::Surface;
 

@@ -19,9 +19,6 @@ pub(crate) trait Flow {
 
     /// Lateral load less its cap [N]; its sign over a step tells how long the gate was open.
     fn lateral_excess(&self, area: f64, loaded: &Loaded) -> f64;
-
-    /// Cap of the normal load [N].
-    fn normal_cap(&self, area: f64, loaded: &Loaded) -> f64;
 }
 
 /// Geometry of the lateral drop.
@@ -103,7 +100,8 @@ impl<L: LateralGeometry> Flow for CapozzaHanley<L> {
             return (Drop::default(), *start);
         }
         let lateral_excess = |k: &Loaded| self.lateral_excess(node.area, k);
-        let normal_excess = |k: &Loaded| k.normal_load - self.normal_cap(node.area, k);
+        let normal_excess =
+            |k: &Loaded| k.normal_load - Self::effective_area(node.area, k) * self.hardness;
         let g = lateral_excess(start);
         let g_old =
             if advance.was_in_contact { old.lateral_excess } else { g - start.lateral_load };
@@ -114,7 +112,7 @@ impl<L: LateralGeometry> Flow for CapozzaHanley<L> {
             let limit = open * L::advance(start, advance, &node.heading, &node.n);
             if limit > 0.0 {
                 (lateral, now) = match g > 0.0 {
-                    true => node.sink(0.0, start, limit, lateral_excess),
+                    true => node.sink([0.0, limit], start, start.lateral_load, lateral_excess),
                     false => (limit, node.at(limit)),
                 };
             }
@@ -123,7 +121,7 @@ impl<L: LateralGeometry> Flow for CapozzaHanley<L> {
         if normal_excess(&now) > 0.0 {
             // The bound is the law: a node sinks with the body, never ahead of it.
             let limit = (-advance.share * advance.step.dot(&node.n)).max(0.0);
-            (normal, now) = node.sink(lateral, &now, limit, normal_excess);
+            (normal, now) = node.sink([lateral, limit], &now, now.normal_load, normal_excess);
         }
         (Drop { normal, lateral }, now)
     }
@@ -131,11 +129,6 @@ impl<L: LateralGeometry> Flow for CapozzaHanley<L> {
     #[inline(always)]
     fn lateral_excess(&self, area: f64, loaded: &Loaded) -> f64 {
         loaded.lateral_load - Self::effective_area(area, loaded) * self.shear_hardness
-    }
-
-    #[inline(always)]
-    fn normal_cap(&self, area: f64, loaded: &Loaded) -> f64 {
-        Self::effective_area(area, loaded) * self.hardness
     }
 }
 
@@ -170,17 +163,12 @@ impl Flow for NormalPressure {
         }
         // No bound by the advance: H per volume is the law, also where the face turns on a node.
         let out_of_contact = start.touch.overlap / start.cosine;
-        let (normal, now) = node.sink(0.0, start, out_of_contact, excess);
+        let (normal, now) = node.sink([0.0, out_of_contact], start, start.normal_force, excess);
         (Drop { normal, lateral: 0.0 }, now)
     }
 
     #[inline(always)]
     fn lateral_excess(&self, _: f64, _: &Loaded) -> f64 {
         0.0
-    }
-
-    #[inline(always)]
-    fn normal_cap(&self, area: f64, loaded: &Loaded) -> f64 {
-        area * self.hardness * loaded.normal_load / loaded.normal_force.max(f64::MIN_POSITIVE)
     }
 }

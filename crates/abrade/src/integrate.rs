@@ -7,7 +7,6 @@
 use nalgebra::Vector3;
 
 use crate::body::{Body, State};
-use crate::columns::Toll;
 use crate::contact::Contact;
 use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Until};
 use crate::error::PhysicsError;
@@ -15,6 +14,7 @@ use crate::flight::{free_time, separation};
 use crate::ledger::Ledger;
 use crate::rotation::Dynamics;
 use crate::surface::Surface;
+use crate::toll::Toll;
 use crate::trial::{Pull, Trial};
 
 /// eta at an accuracy of 3e-3; the error goes as eta^2.
@@ -65,7 +65,7 @@ impl Integrator {
         )?;
         let contacts = surfaces
             .into_iter()
-            .map(|surface| Contact::new(&body.shape, surface))
+            .map(|surface| Contact::new(&body.shape, surface, settings.ledger))
             .collect::<Result<_, _>>()?;
         Ok(Self {
             settings,
@@ -280,9 +280,8 @@ impl Integrator {
     fn start_clear(&mut self, body: &Body, surfaces: &[Placed<'_>]) -> Result<(), PhysicsError> {
         for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
             let local = body.state.seen_from(&placed.pose);
-            let margin = 0.5 * placed.surface.pitch();
-            contact.cover(placed.surface, &body.shape, &local, margin);
-            let depth = contact.deepest(&body.shape, &local);
+            contact.cover(placed.surface, &body.shape, &local, 0.0);
+            let depth = contact.deepest(placed.surface, &body.shape, &local);
             if depth > INSIDE * body.shape.bounding_radius() {
                 return Err(PhysicsError::StartsInside { depth });
             }
@@ -302,10 +301,9 @@ impl Integrator {
 
     /// True for a body that surfaces without springs have brought to rest.
     fn has_stopped(&self, body: &Body) -> bool {
-        let energy = body.inertia.kinetic_energy(&body.state);
         self.touched
             && self.contacts.iter().all(Contact::is_rigid)
-            && energy < STOPPED * self.energy_before
+            && body.inertia.kinetic_energy(&body.state) < STOPPED * self.energy_before
     }
 
     fn end_contact(&mut self, surfaces: &mut [Placed<'_>]) {

@@ -113,6 +113,15 @@ impl ElasticLaw {
 }
 
 impl Removal {
+    /// Share of a drop that becomes debris; `attack` is the sine of the face's angle of attack.
+    pub(crate) fn share(&self, attack: f64) -> f64 {
+        match self {
+            Self::All => 1.0,
+            Self::Fraction { of } => *of,
+            Self::AttackAngle { critical } => f64::from(u8::from(attack >= critical.sin())),
+        }
+    }
+
     /// Every value outside its range.
     pub fn check(&self) -> Vec<ParameterError> {
         match self {

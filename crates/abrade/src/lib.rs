@@ -7,17 +7,21 @@
 
 mod body;
 mod candidates;
+mod clump_query;
 mod column;
+mod column_law;
 mod columns;
 mod contact;
 mod drive;
 mod elastic;
 mod encounter;
 mod error;
+mod extent;
 mod flight;
 mod flow;
 mod grid;
 mod hull;
+mod inner_loop;
 mod integrate;
 mod laws;
 mod ledger;
@@ -25,6 +29,7 @@ mod material;
 mod node_law;
 mod nodes;
 mod patch;
+mod price;
 mod projection;
 #[cfg(feature = "serde")]
 pub mod quantity;
@@ -33,6 +38,7 @@ mod rotation;
 mod shape;
 mod surface;
 mod sweep;
+mod toll;
 mod trial;
 mod union_inertia;
 

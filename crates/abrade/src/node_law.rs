@@ -32,6 +32,16 @@ pub(crate) struct Spring {
     pub attack: f64,
 }
 
+impl Spring {
+    /// Forgets a contact; a spring that had none is left alone, because writing costs.
+    #[inline(always)]
+    pub(crate) fn release(&mut self) {
+        if self.overlap != 0.0 {
+            *self = Self::default();
+        }
+    }
+}
+
 /// Parts of a step's drop [m].
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Drop {
@@ -57,7 +67,7 @@ pub(crate) struct NodeStep<'a, E, Q> {
     pub friction: f64,
     /// Unit tangential direction of the body's motion; zero at rest.
     pub heading: Vector3<f64>,
-    /// Tangential stretch before the drop.
+    /// Tangential stretch before the drop [m].
     pub trial_stretch: Vector3<f64>,
 }
 
@@ -69,8 +79,9 @@ pub(crate) struct Loaded {
     pub cosine: f64,
     /// F [N], along m.
     pub normal_force: f64,
-    /// T [N].
+    /// T [N], and its length.
     pub tangential: Vector3<f64>,
+    pub tangential_force: f64,
     /// |xi| cut off by slip, and the stretch that is left.
     pub slip: f64,
     pub stretch: Vector3<f64>,
@@ -84,21 +95,28 @@ impl<E: Elastic, Q: Query> NodeStep<'_, E, Q> {
     /// The node after sinking by `drop` [m]; exact geometry.
     #[inline(always)]
     pub(crate) fn at(&self, drop: f64) -> Loaded {
-        let touch = self.query.touch(&(self.x - self.n * drop), &self.n);
+        self.loaded(self.query.touch(&(self.x - self.n * drop), &self.n), drop)
+    }
+
+    /// The force at `touch`, where the node has sunk by `drop` [m].
+    #[inline(always)]
+    pub(crate) fn loaded(&self, touch: Touch, drop: f64) -> Loaded {
         let m = touch.contact_normal;
         let overlap = touch.overlap.max(0.0);
         let force = self.elastic.normal_force(touch.coefficient, overlap, self.area);
         let spring = self.elastic.tangential_stiffness(touch.coefficient, overlap, self.area);
-        let xi = self.trial_stretch + (self.n - m * self.n.dot(&m)) * drop;
+        let cosine = -m.dot(&self.n);
+        let xi = self.trial_stretch + (self.n + m * cosine) * drop;
         let (length, limit) = (xi.norm(), self.friction * force);
         let kept = if spring * length > limit { limit / (spring * length) } else { 1.0 };
         let tangential = xi * (kept * spring);
         let total = m * force + tangential;
         Loaded {
             touch,
-            cosine: -m.dot(&self.n),
+            cosine,
             normal_force: force,
             tangential,
+            tangential_force: kept * spring * length,
             slip: (1.0 - kept) * length,
             stretch: xi * kept,
             normal_load: -total.dot(&self.n),
@@ -106,49 +124,71 @@ impl<E: Elastic, Q: Query> NodeStep<'_, E, Q> {
         }
     }
 
+    /// How fast a force in proportion to F falls as the node sinks, per unit of that force
+    /// [1/m]: (dF/dd) c / F.
+    #[inline(always)]
+    fn relief(&self, at: &Loaded) -> f64 {
+        let Touch { coefficient, overlap, .. } = at.touch;
+        self.elastic.normal_stiffness(coefficient, overlap, self.area) * at.cosine / at.normal_force
+    }
+
     /// The smallest drop within `limit` that brings `excess` to zero, or `limit` if none does.
-    /// `excess(start) > 0` at `from`. Illinois' regula falsi: the function is nearly linear.
+    /// `excess` is a `load` less its cap, above zero at `start`. Secants between brackets, the
+    /// first along the load's own relief: the function is nearly linear.
     #[inline(always)]
     pub(crate) fn sink(
         &self,
-        from: f64,
+        [from, limit]: [f64; 2],
         start: &Loaded,
-        limit: f64,
+        load: f64,
         excess: impl Fn(&Loaded) -> f64,
     ) -> (f64, Loaded) {
-        let (mut low, mut g_low) = (0.0, excess(start));
-        let mut at = self.at(from + limit);
-        let (mut high, mut g_high) = (limit, excess(&at));
-        if g_high >= 0.0 || limit <= 0.0 {
-            return (limit.max(0.0), if limit > 0.0 { at } else { *start });
+        if limit <= 0.0 {
+            return (0.0, *start);
         }
-        let tolerance = ROOT * (g_low - g_high);
-        let mut drop = high;
-        let mut side = 0;
+        let slope = load * self.relief(start);
+        let mut last = (0.0, excess(start));
+        let tolerance = ROOT * (last.1 + slope * limit);
+        let (mut low, mut high, mut asked) = (0.0, limit, false);
+        let mut drop = (last.1 / slope).min(limit);
+        let mut at = self.at(from + drop);
         for _ in 0..ROOT_STEPS {
-            drop = (low * g_high - high * g_low) / (g_high - g_low);
-            at = self.at(from + drop);
             let g = excess(&at);
-            if g.abs() <= tolerance {
+            if g.abs() <= tolerance || (g > 0.0 && drop == limit) {
                 break;
             }
+            let secant = drop - g * (drop - last.0) / (g - last.1);
+            last = (drop, g);
             if g > 0.0 {
-                (low, g_low) = (drop, g);
-                g_high *= if side == 1 { 0.5 } else { 1.0 };
-                side = 1;
+                low = drop;
             } else {
-                (high, g_high) = (drop, g);
-                g_low *= if side == -1 { 0.5 } else { 1.0 };
-                side = -1;
+                high = drop;
             }
+            drop = match (secant > low && secant < high, asked) {
+                (true, _) => secant,
+                (false, false) => limit,
+                (false, true) => 0.5 * (low + high),
+            };
+            asked |= drop == limit;
+            at = self.at(from + drop);
         }
         (drop, at)
     }
 }
 
-/// Relative tolerance of the root, and the number of steps after which it is taken as it is.
+/// Tolerance of the root relative to the fall of the excess over the limit, and the number of
+/// steps after which it is taken as it is.
 const ROOT: f64 = 1e-9;
 const ROOT_STEPS: usize = 40;
+
+/// Unit tangential direction in which a body of `velocity` moves over a node of normal `n`; zero
+/// at rest.
+#[inline]
+pub(crate) fn heading(velocity: &Vector3<f64>, n: &Vector3<f64>) -> Vector3<f64> {
+    let tangential = velocity - n * velocity.dot(n);
+    let speed = tangential.norm();
+    if speed > 0.0 { tangential / speed } else { tangential }
+}
 
 /// A node's answer to one step.
 pub(crate) struct Answer {
@@ -162,7 +202,7 @@ pub(crate) struct Answer {
 #[inline(always)]
 pub(crate) fn resolve<E: Elastic, Q: Query, F: Flow>(
     flow: &F,
-    mut node: NodeStep<'_, E, Q>,
+    node: &mut NodeStep<'_, E, Q>,
     old: &Spring,
     motion: &Motion,
 ) -> Option<Answer> {
@@ -180,9 +220,6 @@ pub(crate) fn resolve<E: Elastic, Q: Query, F: Flow>(
         if was_in_contact || approach <= 0.0 { 1.0 } else { (trial.overlap / approach).min(1.0) };
     let carried = if was_in_contact { transport(&old.stretch, &m) } else { Vector3::zeros() };
     node.trial_stretch = carried + (step - m * approach) * share;
-    let tangential = motion.velocity - node.n * motion.velocity.dot(&node.n);
-    let speed = tangential.norm();
-    node.heading = if speed > 0.0 { tangential / speed } else { tangential };
     let advance = Advance {
         // v* splits the advance into its normal and tangential parts: the full material velocity
         // would let spin leak between the gates.
@@ -191,12 +228,12 @@ pub(crate) fn resolve<E: Elastic, Q: Query, F: Flow>(
         was_in_contact,
         overlap_change: trial.overlap - old.overlap,
     };
-    let start = node.at(0.0);
-    let (drop, loaded) = flow.flow(&node, &start, &advance, old);
+    let start = node.loaded(trial, 0.0);
+    let (drop, loaded) = flow.flow(node, &start, &advance, old);
     let spring = Spring {
         stretch: loaded.stretch,
         overlap: loaded.touch.overlap.max(f64::MIN_POSITIVE),
-        tangential_force: loaded.tangential.norm(),
+        tangential_force: loaded.tangential_force,
         lateral_excess: flow.lateral_excess(node.area, &loaded),
         normal_load: loaded.normal_load,
         drop,

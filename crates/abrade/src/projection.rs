@@ -5,8 +5,8 @@
 //! a = (J.M^-1 J + T.I^-1 T)/2 and b = J.v + T.w.
 
 use crate::body::State;
-use crate::columns::Push;
 use crate::rotation::Dynamics;
+use crate::toll::Push;
 
 /// A guided body is paid for by what leads it: nothing is scaled.
 const LED: Payment = Payment { scale: 1.0, share: 1.0 };

@@ -65,6 +65,8 @@ pub struct Surface {
     pub(crate) laws: SurfaceLaws,
     pub(crate) worn: Worn,
     pub(crate) grid: Grid,
+    /// The normal of every node, where they agree.
+    level: Option<Vector3<f64>>,
     columns_rows: [usize; 2],
     pitch: f64,
 }
@@ -173,6 +175,7 @@ impl Surface {
             },
             laws,
             worn: Worn::default(),
+            level: Some(Vector3::z()),
             columns_rows,
             pitch: strip.pitch,
         })
@@ -196,6 +199,11 @@ impl Surface {
     /// Distance of neighbouring nodes [m].
     pub fn pitch(&self) -> f64 {
         self.pitch
+    }
+
+    /// The normal of every node, where they agree.
+    pub(crate) fn level(&self) -> Option<Vector3<f64>> {
+        self.level
     }
 
     /// Sinks node `id` by `drop` [m].

@@ -12,6 +12,8 @@ const UNMOVED: f64 = 1e-9;
 /// The face planes and balls of a body at the start and the end of a step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Swept {
+    /// The normal of every node, where they agree: slopes against it are ready.
+    level: Option<Vector3<f64>>,
     planes: Vec<MovedPlane>,
     balls: Vec<MovedBall>,
     /// Per hull: the end of its planes in `planes`.
@@ -20,8 +22,13 @@ pub(crate) struct Swept {
 
 #[derive(Clone, Copy, Debug)]
 struct MovedPlane {
+    /// Outward normal and offset [m].
     from: (Vector3<f64>, f64),
     to: (Vector3<f64>, f64),
+    /// Mean normal of both poses.
+    mean: Vector3<f64>,
+    /// The end normal's part along the level.
+    slope: f64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -51,8 +58,16 @@ pub(crate) struct Entry {
 }
 
 impl Swept {
-    /// Places `shape` at both ends of a step; reuses the buffers.
-    pub(crate) fn place(&mut self, shape: &Shape, from: &State, to: &State) {
+    /// Places `shape` at both ends of a step, over nodes whose normal is `level` if they agree;
+    /// reuses the buffers.
+    pub(crate) fn place(
+        &mut self,
+        shape: &Shape,
+        from: &State,
+        to: &State,
+        level: Option<Vector3<f64>>,
+    ) {
+        self.level = level;
         self.planes.clear();
         self.balls.clear();
         self.hulls.clear();
@@ -68,9 +83,12 @@ impl Swept {
                         let normal = state.rotation * normal;
                         (normal, offset + normal.dot(&state.position.coords))
                     };
-                    self.planes.extend(hull.planes().iter().map(|p| MovedPlane {
-                        from: at(from, &p.normal, p.offset),
-                        to: at(to, &p.normal, p.offset),
+                    self.planes.extend(hull.planes().iter().map(|p| {
+                        let from = at(from, &p.normal, p.offset);
+                        let to = at(to, &p.normal, p.offset);
+                        let slope = level.map_or(0.0, |n| to.0.dot(&n));
+                        let mean = (from.0 + to.0).normalize();
+                        MovedPlane { from, to, mean, slope }
                     }));
                     self.hulls.push(self.planes.len());
                 }
@@ -82,6 +100,11 @@ impl Swept {
     /// one column count as one span.
     #[inline]
     pub(crate) fn span(&self, x: &Point3<f64>, n: &Vector3<f64>) -> Option<Span> {
+        match (&*self.hulls, &*self.balls) {
+            ([_], []) => return self.clip(&self.planes, x, n),
+            ([], [ball]) => return ball.chord(x, n),
+            _ => {}
+        }
         let mut whole: Option<Span> = None;
         let mut add = |span: Option<Span>| {
             let Some(span) = span else { return };
@@ -93,11 +116,31 @@ impl Swept {
         };
         let mut start = 0;
         for &end in &self.hulls {
-            add(clip(&self.planes[start..end], x, n));
+            add(self.clip(&self.planes[start..end], x, n));
             start = end;
         }
         self.balls.iter().for_each(|ball| add(ball.chord(x, n)));
         whole
+    }
+
+    #[inline]
+    fn clip(&self, planes: &[MovedPlane], x: &Point3<f64>, n: &Vector3<f64>) -> Option<Span> {
+        match self.level {
+            Some(_) => clip(planes, x, |plane| plane.slope),
+            None => clip(planes, x, |plane| plane.to.0.dot(n)),
+        }
+    }
+
+    /// True when the line from `x` down along -n meets the body, grown by `margin` [m], at the
+    /// end of the step.
+    pub(crate) fn meets(&self, x: &Point3<f64>, n: &Vector3<f64>, margin: f64) -> bool {
+        let mut start = 0;
+        let hulls = self.hulls.iter().any(|&end| {
+            let planes = &self.planes[start..end];
+            start = end;
+            hull_meets(planes, x, n, margin)
+        });
+        hulls || self.balls.iter().any(|ball| ball.meets(x, n, margin))
     }
 
     /// The face through which `p` came to lie inside the body during the step, if one did.
@@ -121,19 +164,24 @@ impl Swept {
     }
 }
 
-/// Clips the line against the planes at the end of the step.
-#[inline]
-fn clip(planes: &[MovedPlane], x: &Point3<f64>, n: &Vector3<f64>) -> Option<Span> {
+/// Clips the line against the planes at the end of the step; `slope` is that of a plane's normal
+/// along the line.
+#[inline(always)]
+fn clip(
+    planes: &[MovedPlane],
+    x: &Point3<f64>,
+    slope: impl Fn(&MovedPlane) -> f64,
+) -> Option<Span> {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-    let mut deep_normal = Vector3::zeros();
-    for MovedPlane { to: (normal, offset), .. } in planes {
-        let slope = normal.dot(n);
-        let room = offset - normal.dot(&x.coords);
+    let mut deep = None;
+    for plane in planes {
+        let slope = slope(plane);
+        let room = plane.to.1 - plane.to.0.dot(&x.coords);
         if slope < 0.0 {
             let bound = room / slope;
             if bound > low {
                 low = bound;
-                deep_normal = *normal;
+                deep = Some(plane);
             }
         } else if slope > 0.0 {
             high = high.min(room / slope);
@@ -144,7 +192,27 @@ fn clip(planes: &[MovedPlane], x: &Point3<f64>, n: &Vector3<f64>) -> Option<Span
             return None;
         }
     }
-    Some(Span { low, high, deep_normal })
+    deep.map(|plane| Span { low, high, deep_normal: plane.to.0 })
+}
+
+#[inline]
+fn hull_meets(planes: &[MovedPlane], x: &Point3<f64>, n: &Vector3<f64>, margin: f64) -> bool {
+    let (mut low, mut high) = (f64::NEG_INFINITY, margin);
+    for MovedPlane { to: (normal, offset), .. } in planes {
+        let slope = normal.dot(n);
+        let room = offset + margin - normal.dot(&x.coords);
+        if slope < 0.0 {
+            low = low.max(room / slope);
+        } else if slope > 0.0 {
+            high = high.min(room / slope);
+        } else if room < 0.0 {
+            return false;
+        }
+        if low >= high {
+            return false;
+        }
+    }
+    true
 }
 
 /// The plane that was crossed last on the way in, and when, as a share of the step.
@@ -166,13 +234,17 @@ fn hull_entry(planes: &[MovedPlane], p: &Point3<f64>, step: f64) -> Option<(f64,
             }
         }
     }
-    last.map(|(time, plane, displacement)| {
-        let normal = (plane.from.0 + plane.to.0).normalize();
-        (time, Entry { normal, displacement })
-    })
+    last.map(|(time, plane, displacement)| (time, Entry { normal: plane.mean, displacement }))
 }
 
 impl MovedBall {
+    fn meets(&self, x: &Point3<f64>, n: &Vector3<f64>, margin: f64) -> bool {
+        let to_centre = self.to - x;
+        let (along, radius) = (to_centre.dot(n), self.radius + margin);
+        let square = radius * radius - (to_centre - n * along).norm_squared();
+        square > 0.0 && along - square.sqrt() < margin
+    }
+
     #[inline]
     fn chord(&self, x: &Point3<f64>, n: &Vector3<f64>) -> Option<Span> {
         let to_centre = self.to - x;

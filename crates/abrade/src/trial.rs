@@ -3,19 +3,15 @@
 use nalgebra::Vector3;
 
 use crate::body::{Body, State};
-use crate::columns::{Push, Toll};
 use crate::contact::Contact;
 use crate::encounter::{Loads, Placed};
+use crate::inner_loop::Reaction;
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
 use crate::node_law::Motion;
-use crate::patch::Reaction;
 use crate::projection::{balance, pay};
 use crate::rotation::Dynamics;
-
-/// Reach of a candidate list in displacements of the step, and its least value in pitches.
-const LIST_STEPS: f64 = 8.0;
-const LIST_PITCH: f64 = 0.05;
+use crate::toll::{Push, Toll};
 
 /// What contacts do to a body at an instant.
 #[derive(Clone, Copy, Debug, Default)]
@@ -47,17 +43,11 @@ pub(crate) struct Trial {
     /// Displacement [m] and turn [rad] of the step.
     pub shift: Vector3<f64>,
     pub turn: Vector3<f64>,
-    answers: Vec<Answer>,
     springs: Reaction,
     toll: Toll,
     pub touching: usize,
     pub evaluations: u64,
     pub overlap_change: f64,
-}
-
-enum Answer {
-    Springs(Reaction),
-    Columns(Toll),
 }
 
 /// The accepted end of a step.
@@ -92,7 +82,7 @@ impl Trial {
     pub(crate) fn omega(&self, dynamics: &Dynamics) -> f64 {
         let springs = &self.springs;
         let normal = (springs.normal_stiffness + self.toll.stiffness) * dynamics.inverse_mass;
-        let turning = dynamics.agility() * springs.reach * springs.reach;
+        let turning = dynamics.agility() * springs.lever_squared;
         let tangential = springs.tangential_stiffness * (dynamics.inverse_mass + turning);
         normal.max(tangential).sqrt()
     }
@@ -137,7 +127,6 @@ impl Integrator {
             dt,
             shift: velocity * dt,
             turn: spin * dt,
-            answers: Vec::with_capacity(surfaces.len()),
             springs: Reaction::default(),
             toll: Toll::default(),
             touching: 0,
@@ -145,28 +134,26 @@ impl Integrator {
             overlap_change: 0.0,
         };
         let reach = (velocity.norm() + spin.norm() * body.shape.bounding_radius()) * dt;
-        let ledger = self.keeps_ledger();
         for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
-            let (start, end) = (body.state.seen_from(&placed.pose), state.seen_from(&placed.pose));
-            let margin = (LIST_STEPS * reach).max(LIST_PITCH * placed.surface.pitch());
-            contact.cover(placed.surface, &body.shape, &end, margin);
+            let end = state.seen_from(&placed.pose);
+            contact.cover(placed.surface, &body.shape, &end, reach);
             let motion = Motion {
                 velocity: placed.pose.inverse_transform_vector(&velocity),
                 spin: placed.pose.inverse_transform_vector(&spin),
                 dt,
             };
-            trial.answers.push(match contact {
+            match contact {
                 Contact::Springs(patch) => {
-                    let reaction = patch.trial(placed.surface, &end, &motion, ledger);
-                    trial.springs.add(&reaction, &placed.pose);
-                    Answer::Springs(reaction)
+                    let reaction = patch.trial(placed.surface.laws(), &end, &motion);
+                    trial.springs.add(reaction, &placed.pose);
                 }
                 Contact::Columns(columns) => {
-                    let toll = columns.trial(&body.shape, &start, &end, &motion);
-                    trial.toll.add(&toll, &placed.pose);
-                    Answer::Columns(toll)
+                    let start = body.state.seen_from(&placed.pose);
+                    let poses = [&start, &end];
+                    let toll = columns.trial(placed.surface, &body.shape, poses, &motion);
+                    trial.toll.add(toll, &placed.pose);
                 }
-            });
+            }
         }
         trial.touching = trial.springs.touching + trial.toll.touching;
         trial.evaluations = (trial.springs.touching + trial.toll.touching) as u64;
@@ -264,19 +251,16 @@ impl Integrator {
         let mut push = trial.springs.push;
         let stored = self.keeps_ledger();
         let pairs = self.contacts.iter_mut().zip(surfaces.iter_mut());
-        for ((contact, placed), answer) in pairs.zip(&trial.answers) {
-            match (contact, answer) {
-                (Contact::Springs(patch), Answer::Springs(reaction)) => {
-                    patch.commit(placed.surface, reaction);
-                }
-                (Contact::Columns(columns), Answer::Columns(toll)) => {
-                    columns.commit(placed.surface, share, toll, trial.dt);
-                    push += placed.pose * (toll.flow.impulse + toll.spring.impulse) / trial.dt;
+        for (contact, placed) in pairs {
+            match contact {
+                Contact::Springs(patch) => patch.commit(placed.surface),
+                Contact::Columns(columns) => {
+                    columns.commit(placed.surface, share, trial.dt);
+                    push += placed.pose * columns.impulse() / trial.dt;
                     if stored {
                         elastic += columns.elastic();
                     }
                 }
-                _ => {}
             }
         }
         (elastic, push)

@@ -1,0 +1,114 @@
+//! Contact query of hulls and of clumps of balls and hulls.
+
+use nalgebra::{Point3, Vector3};
+
+use crate::body::State;
+use crate::hull::Plane;
+use crate::query::{BallQuery, Contactor, Query, Touch};
+use crate::shape::Piece;
+
+/// Any clump of balls and hulls: the piece with the largest pressure wins, so that the stored
+/// energy is continuous where the carving piece changes.
+#[derive(Clone, Debug)]
+pub(crate) struct ClumpQuery {
+    balls: Vec<BallQuery>,
+    hulls: Vec<HullQuery>,
+    position: Point3<f64>,
+}
+
+/// Face planes of a hull, inflated: in the body's frame and at the present pose.
+#[derive(Clone, Debug)]
+struct HullQuery {
+    planes_local: Vec<Plane>,
+    planes: Vec<Plane>,
+    coefficient: f64,
+}
+
+impl ClumpQuery {
+    pub(crate) fn new(contactors: &[Contactor], inflation: f64) -> Self {
+        let mut clump = Self { balls: Vec::new(), hulls: Vec::new(), position: Point3::origin() };
+        for Contactor { piece, coefficient } in contactors {
+            match piece {
+                Piece::Ball(ball) => {
+                    clump.balls.push(BallQuery::new(ball, *coefficient, inflation));
+                }
+                Piece::Hull(hull) => {
+                    let grown =
+                        |plane: &Plane| Plane { offset: plane.offset + inflation, ..*plane };
+                    let planes: Vec<_> = hull.planes().iter().map(grown).collect();
+                    clump.hulls.push(HullQuery {
+                        planes_local: planes.clone(),
+                        planes,
+                        coefficient: *coefficient,
+                    });
+                }
+            }
+        }
+        clump
+    }
+
+    pub(crate) fn place(&mut self, state: &State) {
+        self.position = state.position;
+        self.balls.iter_mut().for_each(|ball| ball.place(state));
+        for hull in &mut self.hulls {
+            for (placed, local) in hull.planes.iter_mut().zip(&hull.planes_local) {
+                placed.normal = state.rotation * local.normal;
+                placed.offset = local.offset + placed.normal.dot(&state.position.coords);
+            }
+        }
+    }
+}
+
+impl Query for ClumpQuery {
+    // Out of line: a clump's loops would be copied into every root of every law.
+    #[inline(never)]
+    fn touch(&self, x: &Point3<f64>, n: &Vector3<f64>) -> Touch {
+        let balls = self.balls.iter().map(|ball| ball.touch(x, n));
+        let hulls = self.hulls.iter().map(|hull| hull.touch(x, n, &self.position));
+        let pressure = |touch: &Touch| touch.coefficient * touch.overlap;
+        let deepest = balls
+            .chain(hulls)
+            .reduce(|best, touch| if pressure(&touch) > pressure(&best) { touch } else { best });
+        deepest.expect("a shape has at least one piece")
+    }
+
+    #[inline]
+    fn near(&self, x: &Point3<f64>) -> bool {
+        self.balls.iter().any(|ball| ball.near(x)) || self.hulls.iter().any(|hull| hull.holds(x))
+    }
+}
+
+impl HullQuery {
+    fn holds(&self, x: &Point3<f64>) -> bool {
+        self.planes.iter().all(|plane| plane.normal.dot(&x.coords) < plane.offset)
+    }
+
+    /// The face at the deep end of the node's line and the overlap with it; of a node outside,
+    /// the face it is farthest from.
+    fn touch(&self, x: &Point3<f64>, n: &Vector3<f64>, position: &Point3<f64>) -> Touch {
+        let mut outside: Option<(f64, &Plane)> = None;
+        let mut deep: Option<(f64, &Plane)> = None;
+        for plane in &self.planes {
+            let inside = plane.offset - plane.normal.dot(&x.coords);
+            if inside <= outside.map_or(0.0, |(least, _)| least) {
+                outside = Some((inside, plane));
+            }
+            let down = -plane.normal.dot(n);
+            if down > 0.0 && deep.is_none_or(|(reach, _)| inside < reach * down) {
+                deep = Some((inside / down, plane));
+            }
+        }
+        let face = outside.or(deep).map(|(_, plane)| *plane);
+        // A closed hull has a face below any line; the fallback is never in contact.
+        let plane = face.unwrap_or(Plane { normal: -n, offset: f64::NEG_INFINITY });
+        let overlap = plane.offset - plane.normal.dot(&x.coords);
+        Touch {
+            overlap,
+            contact_normal: plane.normal,
+            arm: x + plane.normal * overlap - position,
+            coefficient: self.coefficient,
+            literal_cosine: -plane.normal.dot(n),
+            radius: f64::INFINITY,
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! One column in one step of the swept rule: what is taken, which face pays, what the spring does.
+
+use nalgebra::{Point3, Vector3};
+
+use crate::candidates::Slot;
+use crate::column::{Column, Interval, Pieces};
+use crate::elastic::coefficient;
+use crate::laws::{ElasticLaw, FlowLaw};
+use crate::node_law::{Motion, STEEP};
+use crate::price::Price;
+use crate::shape::Shape;
+use crate::surface::SurfaceLaws;
+use crate::sweep::{Entry, Span, Swept};
+use crate::toll::{Push, Toll};
+
+/// Midpoints at which a removed piece is charged, and for a piece longer than `LONG` steps.
+const SAMPLES: usize = 2;
+const LONG_SAMPLES: usize = 4;
+const LONG: f64 = 3.0;
+
+/// Laws of a body on the columns of a surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ColumnLaw {
+    price: Price,
+    /// k_w [Pa/m]; infinite without springs.
+    stiffness: f64,
+    /// g_y = H / k_w [m]; zero without springs.
+    pub yield_overlap: f64,
+}
+
+/// What a column needs to know of the step.
+pub(crate) struct Step<'a> {
+    pub swept: &'a Swept,
+    pub motion: &'a Motion,
+    /// Mid-step centre of mass.
+    pub middle: Point3<f64>,
+    /// Displacement of the fastest point [m].
+    pub reach: f64,
+    /// Unit tangential direction of the motion over the column; zero at rest.
+    pub heading: Vector3<f64>,
+}
+
+/// A step's trial on a column.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Cut {
+    /// The column, by its place in the list.
+    pub index: u32,
+    /// Solid that the body swept.
+    pub pieces: Pieces,
+    /// Share of their length swept sideways, and the sine of the angle of attack.
+    pub lateral: f64,
+    pub attack: f64,
+    /// Compression of the spring at the end [m].
+    pub squeeze: f64,
+}
+
+/// Sums over the pieces taken from a column, weighted by their lengths.
+#[derive(Clone, Copy, Debug, Default)]
+struct Taken {
+    length: f64,
+    lateral: f64,
+    attack: f64,
+}
+
+impl ColumnLaw {
+    pub(crate) fn new(shape: &Shape, laws: &SurfaceLaws) -> Self {
+        let material = &laws.material;
+        let stiffness = match laws.elastic {
+            ElasticLaw::Rigid => f64::INFINITY,
+            _ => shape.pieces().iter().map(|p| coefficient(laws, p)).fold(0.0, f64::max),
+        };
+        let shear_hardness = match laws.flow {
+            FlowLaw::CapozzaHanley { .. } => Some(material.shear_ratio * material.hardness),
+            FlowLaw::NormalPressure {} => None,
+        };
+        let (hardness, friction) = (material.hardness, material.friction);
+        Self {
+            price: Price { hardness, shear_hardness, friction },
+            stiffness,
+            yield_overlap: hardness / stiffness,
+        }
+    }
+
+    /// Energy of a spring under a column of `area` [m2] [J].
+    pub(crate) fn stored(&self, area: f64, squeeze: f64) -> f64 {
+        if squeeze > 0.0 { 0.5 * self.stiffness * area * squeeze * squeeze } else { 0.0 }
+    }
+
+    /// One column in one step; None where nothing changes.
+    #[inline]
+    pub(crate) fn sweep(
+        &self,
+        step: &Step<'_>,
+        slot: &Slot,
+        column: &Column,
+        toll: &mut Toll,
+    ) -> Option<Cut> {
+        let Some(span) = step.swept.span(&slot.x, &slot.n) else {
+            // The body left sideways: what the spring still held pushes nobody.
+            let stored = self.stored(slot.area, column.squeeze);
+            toll.elastic -= stored;
+            toll.lost += stored;
+            return (column.squeeze > 0.0).then(Cut::default);
+        };
+        // With springs the body sweeps as if lifted by the yield overlap.
+        let (low, high) = (span.low + self.yield_overlap, span.high + self.yield_overlap);
+        if span.low >= -column.open_depth() && column.squeeze == 0.0 {
+            return None;
+        }
+        let mut cut = Cut::default();
+        let mut flow = Taken::default();
+        if low < 0.0 {
+            cut.pieces = column.solid(low, high);
+            for piece in cut.pieces.iter() {
+                self.charge(step, slot, &span, piece, &mut flow, toll);
+            }
+        }
+        let flows = flow.length > 0.0;
+        if self.yield_overlap > 0.0 {
+            let after = match flows {
+                true => self.yield_overlap,
+                false => {
+                    let over = column.level_below(low) - span.low;
+                    over.clamp(0.0, self.yield_overlap)
+                }
+            };
+            self.squeeze(step, slot, &span, [column.squeeze, after], flows, toll);
+            cut.squeeze = after;
+        }
+        if flows {
+            cut.lateral = flow.lateral / flow.length;
+            cut.attack = flow.attack / flow.length;
+            toll.flow_area += slot.area / (-span.deep_normal.dot(&slot.n)).max(STEEP);
+        }
+        let touches = flows || cut.squeeze > 0.0;
+        toll.touching += usize::from(touches);
+        (touches || column.squeeze > 0.0).then_some(cut)
+    }
+
+    /// Charges the removal of the piece between `low` and `high` of a column.
+    fn charge(
+        &self,
+        step: &Step<'_>,
+        slot: &Slot,
+        span: &Span,
+        &[low, high]: &Interval,
+        flow: &mut Taken,
+        toll: &mut Toll,
+    ) {
+        let samples = if high - low > LONG * step.reach { LONG_SAMPLES } else { SAMPLES };
+        let length = (high - low) / samples as f64;
+        for i in 0..samples {
+            let z = low + (i as f64 + 0.5) * length;
+            let touched = slot.x + slot.n * (z - self.yield_overlap);
+            let arm = touched - step.middle;
+            let entry = step
+                .swept
+                .entry(&touched, step.reach)
+                .unwrap_or_else(|| blocked_entry(step, span, &arm));
+            let (price, lateral) = self.price.of(&entry, &slot.n, step, &arm);
+            let energy = price * slot.area * length;
+            toll.wear += energy;
+            self.press(step, &entry.normal, &arm, energy / entry.displacement, &mut toll.flow);
+            flow.length += length;
+            flow.lateral += lateral * length;
+            flow.attack += entry.normal.dot(&step.heading) * length;
+        }
+    }
+
+    /// A force [N] over the step along minus a face normal, with its friction.
+    #[inline]
+    fn press(
+        &self,
+        step: &Step<'_>,
+        normal: &Vector3<f64>,
+        arm: &Vector3<f64>,
+        force: f64,
+        push: &mut Push,
+    ) {
+        let friction = self.price.friction;
+        let mut pull = -normal * force;
+        if friction > 0.0 {
+            let velocity = step.motion.velocity + step.motion.spin.cross(arm);
+            let slip = velocity - normal * velocity.dot(normal);
+            let speed = slip.norm();
+            if speed > 0.0 {
+                pull -= slip * (friction * force / speed);
+                push.friction += friction * force * speed * step.motion.dt;
+            }
+        }
+        let impulse = pull * step.motion.dt;
+        push.impulse += impulse;
+        push.torque += arm.cross(&impulse);
+    }
+
+    /// The spring below the deep end, compressed from `before` to `after` [m].
+    fn squeeze(
+        &self,
+        step: &Step<'_>,
+        slot: &Slot,
+        span: &Span,
+        [before, after]: [f64; 2],
+        flows: bool,
+        toll: &mut Toll,
+    ) {
+        if before == 0.0 && after == 0.0 {
+            return;
+        }
+        let change = self.stored(slot.area, after) - self.stored(slot.area, before);
+        let cosine = (-span.deep_normal.dot(&slot.n)).max(STEEP);
+        let arm = slot.x + slot.n * span.low - step.middle;
+        let mean = 0.5 * self.stiffness * slot.area * (before + after) / cosine;
+        let moved = (step.motion.velocity + step.motion.spin.cross(&arm)) * step.motion.dt;
+        let displacement = span.deep_normal.dot(&moved);
+        let in_part = flows || before == 0.0 || after == 0.0;
+        let force = match (in_part, change * displacement > 0.0) {
+            // Loaded or released in a part of the step: what the spring took or gave over what
+            // the face advanced.
+            (true, true) => (change / displacement).min(mean),
+            (true, false) => 0.0,
+            (false, _) => mean,
+        };
+        toll.elastic += change;
+        toll.stiffness += self.stiffness * slot.area / (cosine * cosine);
+        self.press(step, &span.deep_normal, &arm, force, &mut toll.spring);
+    }
+}
+
+/// Only after a blocked step: the deep end pays; a receding one opposes the motion.
+fn blocked_entry(step: &Step<'_>, span: &Span, arm: &Vector3<f64>) -> Entry {
+    let moved = (step.motion.velocity + step.motion.spin.cross(arm)) * step.motion.dt;
+    let advance = span.deep_normal.dot(&moved);
+    if advance > 0.0 {
+        return Entry { normal: span.deep_normal, displacement: advance };
+    }
+    let length = moved.norm().max(f64::MIN_POSITIVE);
+    Entry { normal: moved / length, displacement: length }
+}

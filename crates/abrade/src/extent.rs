@@ -1,0 +1,108 @@
+//! How far a shape reaches: boxes around it, and how far a point is from it.
+
+use nalgebra::{Point3, UnitQuaternion, Vector3};
+
+use crate::body::State;
+use crate::hull::Hull;
+use crate::shape::{Piece, Shape};
+
+/// A lower bound of the distance from `x` to the shape at `state` [m].
+pub(crate) fn clearance(shape: &Shape, state: &State, x: &Point3<f64>) -> f64 {
+    let local = state.rotation.inverse_transform_vector(&(x - state.position));
+    shape.pieces().iter().map(|piece| piece_clearance(piece, &local)).fold(f64::INFINITY, f64::min)
+}
+
+fn piece_clearance(piece: &Piece, local: &Vector3<f64>) -> f64 {
+    match piece {
+        Piece::Ball(ball) => (local - ball.centre.coords).norm() - ball.radius,
+        Piece::Hull(hull) => hull
+            .planes()
+            .iter()
+            .map(|plane| plane.normal.dot(local) - plane.offset)
+            .fold(f64::NEG_INFINITY, f64::max),
+    }
+}
+
+/// Box around the shape at `state`, grown by `margin` [m].
+pub(crate) fn bounds(shape: &Shape, state: &State, margin: f64) -> [Point3<f64>; 2] {
+    let mut low = Point3::from(Vector3::repeat(f64::INFINITY));
+    let mut high = -low;
+    for piece in shape.pieces() {
+        let [l, h] = piece_bounds(piece, &state.position, &state.rotation);
+        low = low.inf(&l);
+        high = high.sup(&h);
+    }
+    [low - Vector3::repeat(margin), high + Vector3::repeat(margin)]
+}
+
+/// Box around the part of the shape at `state` where n . x <= `top` [m], grown by `margin` [m].
+/// Balls count whole.
+pub(crate) fn bounds_below(
+    shape: &Shape,
+    state: &State,
+    n: &Vector3<f64>,
+    top: f64,
+    margin: f64,
+) -> [Point3<f64>; 2] {
+    let mut low = Point3::from(Vector3::repeat(f64::INFINITY));
+    let mut high = -low;
+    for piece in shape.pieces() {
+        let [l, h] = match piece {
+            Piece::Ball(_) => piece_bounds(piece, &state.position, &state.rotation),
+            Piece::Hull(hull) => hull_below(hull, state, n, top),
+        };
+        low = low.inf(&l);
+        high = high.sup(&h);
+    }
+    [low - Vector3::repeat(margin), high + Vector3::repeat(margin)]
+}
+
+/// Box around the vertices below the level and the points where edges cross it.
+fn hull_below(hull: &Hull, state: &State, n: &Vector3<f64>, top: f64) -> [Point3<f64>; 2] {
+    let mut low = Point3::from(Vector3::repeat(f64::INFINITY));
+    let mut high = -low;
+    let mut add = |p: Point3<f64>| {
+        low = low.inf(&p);
+        high = high.sup(&p);
+    };
+    let place = |i: u32| state.position + state.rotation * hull.vertices()[i as usize].coords;
+    for facet in hull.facets() {
+        let corners = facet.map(place);
+        let above = corners.map(|p| p.coords.dot(n) - top);
+        for i in 0..3 {
+            let j = (i + 1) % 3;
+            if above[i] <= 0.0 {
+                add(corners[i]);
+            }
+            if (above[i] < 0.0) != (above[j] < 0.0) {
+                let share = above[i] / (above[i] - above[j]);
+                add(corners[i] + (corners[j] - corners[i]) * share);
+            }
+        }
+    }
+    [low, high]
+}
+
+fn piece_bounds(
+    piece: &Piece,
+    position: &Point3<f64>,
+    rotation: &UnitQuaternion<f64>,
+) -> [Point3<f64>; 2] {
+    match piece {
+        Piece::Ball(ball) => {
+            let centre = position + rotation * ball.centre.coords;
+            let reach = Vector3::repeat(ball.radius);
+            [centre - reach, centre + reach]
+        }
+        Piece::Hull(hull) => {
+            let mut low = Point3::from(Vector3::repeat(f64::INFINITY));
+            let mut high = -low;
+            for vertex in hull.vertices() {
+                let placed = position + rotation * vertex.coords;
+                low = low.inf(&placed);
+                high = high.sup(&placed);
+            }
+            [low, high]
+        }
+    }
+}

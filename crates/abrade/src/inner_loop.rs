@@ -1,0 +1,157 @@
+//! The inner loop of the return mapping: every candidate through one step, one monomorphic loop per
+//! combination of laws, shape and ledger.
+
+use nalgebra::{Isometry3, Vector3};
+
+use crate::candidates::Slot;
+use crate::elastic::Elastic;
+use crate::flow::Flow;
+use crate::ledger::Ledger;
+use crate::node_law::{Answer, Motion, NodeStep, STEEP, Spring, heading, resolve};
+use crate::query::Query;
+
+/// Laws, body and motion of a step.
+pub(crate) struct InnerLoop<'a, E, F, Q> {
+    pub elastic: E,
+    pub flow: F,
+    pub query: &'a Q,
+    pub friction: f64,
+    pub motion: &'a Motion,
+}
+
+/// What the nodes of a patch do to the body at the end of a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Reaction {
+    /// Force on the body [N], torque about its centre of mass [N m].
+    pub force: Vector3<f64>,
+    pub torque: Vector3<f64>,
+    /// Sums of the elastic stiffnesses [N/m].
+    pub normal_stiffness: f64,
+    pub tangential_stiffness: f64,
+    /// Sum of the nodes' normal loads [N], and the same along their normals.
+    pub normal_load: f64,
+    pub push: Vector3<f64>,
+    /// Sum of the effective areas of the nodes in normal flow [m2] (Eq. 19).
+    pub normal_flow_area: f64,
+    /// Largest change of an overlap [m]; over its yield overlap once it leaves the patch.
+    pub overlap_change: f64,
+    /// Square of the largest lever of a contact force [m2].
+    pub lever_squared: f64,
+    /// Nodes that carry force.
+    pub touching: usize,
+    pub ledger: Ledger,
+}
+
+impl Reaction {
+    /// Adds the reaction of another surface, whose frame is `pose`.
+    pub(crate) fn add(&mut self, other: &Self, pose: &Isometry3<f64>) {
+        self.force += pose * other.force;
+        self.torque += pose * other.torque;
+        self.normal_stiffness += other.normal_stiffness;
+        self.tangential_stiffness += other.tangential_stiffness;
+        self.normal_load += other.normal_load;
+        self.push += pose * other.push;
+        self.overlap_change = self.overlap_change.max(other.overlap_change);
+        self.lever_squared = self.lever_squared.max(other.lever_squared);
+        self.touching += other.touching;
+        self.ledger += other.ledger;
+    }
+}
+
+impl<E: Elastic, F: Flow, Q: Query> InnerLoop<'_, E, F, Q> {
+    /// Takes every candidate from its `old` spring to its `new` one.
+    pub(crate) fn run<const LEDGER: bool>(
+        &self,
+        slots: &[Slot],
+        old: &[Spring],
+        new: &mut [Spring],
+    ) -> Reaction {
+        let mut sum = Reaction::default();
+        let mut node = NodeStep {
+            query: self.query,
+            elastic: self.elastic,
+            x: nalgebra::Point3::origin(),
+            n: Vector3::zeros(),
+            area: 0.0,
+            friction: self.friction,
+            heading: Vector3::zeros(),
+            trial_stretch: Vector3::zeros(),
+        };
+        for (slot, (old, new)) in slots.iter().zip(old.iter().zip(new)) {
+            if !self.query.near(&slot.x) {
+                if old.overlap > 0.0 {
+                    let fall = old.overlap - self.query.touch(&slot.x, &slot.n).overlap;
+                    sum.overlap_change = sum.overlap_change.max(fall);
+                }
+                new.release();
+                continue;
+            }
+            if slot.n != node.n {
+                node.n = slot.n;
+                node.heading = heading(&self.motion.velocity, &slot.n);
+            }
+            (node.x, node.area) = (slot.x, slot.area);
+            match resolve(&self.flow, &mut node, old, self.motion) {
+                Some(answer) => {
+                    sum.take(&answer, &node);
+                    if LEDGER {
+                        sum.ledger.take(&answer, &node, old);
+                    }
+                    *new = answer.spring;
+                }
+                None => {
+                    sum.overlap_change = sum.overlap_change.max(old.overlap);
+                    new.release();
+                }
+            }
+        }
+        sum
+    }
+}
+
+impl Reaction {
+    /// Adds what one node does.
+    #[inline(always)]
+    fn take<E: Elastic, Q>(&mut self, answer: &Answer, node: &NodeStep<'_, E, Q>) {
+        let Answer { spring, loaded: k, overlap_change } = answer;
+        let coefficient = k.touch.coefficient;
+        let force = k.touch.contact_normal * k.normal_force + k.tangential;
+        self.force -= force;
+        self.torque -= k.touch.arm.cross(&force);
+        self.normal_stiffness +=
+            node.elastic.normal_stiffness(coefficient, spring.overlap, node.area);
+        self.tangential_stiffness +=
+            node.elastic.tangential_stiffness(coefficient, spring.overlap, node.area);
+        self.normal_load += k.normal_load;
+        self.push += node.n * k.normal_load;
+        if spring.drop.normal > 0.0 {
+            self.normal_flow_area += node.area / k.cosine.max(STEEP);
+        }
+        self.overlap_change = self.overlap_change.max(*overlap_change);
+        self.lever_squared = self.lever_squared.max(k.touch.arm.norm_squared());
+        self.touching += 1;
+    }
+}
+
+impl Ledger {
+    /// Books one node's step. Out of line, so that a count of calls shows who pays for it.
+    #[inline(never)]
+    fn take<E: Elastic, Q>(&mut self, answer: &Answer, node: &NodeStep<'_, E, Q>, old: &Spring) {
+        let Answer { spring, loaded: k, .. } = answer;
+        let coefficient = k.touch.coefficient;
+        let stiffness =
+            |overlap| node.elastic.tangential_stiffness(coefficient, overlap, node.area);
+        let tangential = spring.tangential_force;
+        let now = stiffness(spring.overlap);
+        let stretched = if now > 0.0 { 0.5 * tangential * tangential / now } else { 0.0 };
+        self.elastic +=
+            node.elastic.normal_energy(coefficient, spring.overlap, node.area) + stretched;
+        self.friction += 0.5 * (old.tangential_force + tangential) * k.slip;
+        let flowed = old.drop.normal + old.drop.lateral > 0.0;
+        let mean = if flowed { 0.5 * (old.normal_load + k.normal_load) } else { k.normal_load };
+        self.wear += mean * (spring.drop.normal + spring.drop.lateral);
+        if !E::CONSERVATIVE && old.overlap > 0.0 {
+            self.history -= 0.5 * (now - stiffness(old.overlap)) * old.stretch.norm_squared();
+        }
+    }
+}
