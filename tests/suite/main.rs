@@ -1,9 +1,11 @@
 //! Tests of the whole: physics against references that this project did not write.
 
+mod convergence;
 mod drive;
 mod foundation;
 mod ledger;
 mod paper;
 mod rig;
+mod sphere;
 mod table;
 mod theory;
