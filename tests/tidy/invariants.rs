@@ -67,6 +67,13 @@ fn reports_only_look(name: &str, text: &str) -> Vec<Fault> {
     CORE.iter().flat_map(of).collect()
 }
 
+/// A crate's root without `forbid(unsafe_code)`. A lint table could not be stricter than its
+/// strictest exception: the test that counts allocations needs an allocator of its own.
+fn forbids_unsafe_code(name: &str, text: &str) -> Vec<Fault> {
+    let missing = !code(text).contains("#![forbid(unsafe_code)]");
+    fault::at(name, "a crate opens with `#![forbid(unsafe_code)]`", missing.then_some(0))
+}
+
 /// Lines of a manifest that depend on something in `words`.
 fn manifest_depends_on(name: &str, text: &str, words: &[&str]) -> Vec<Fault> {
     let depends = |line: &str| {
@@ -130,6 +137,17 @@ fn only_abrade_scene_knows_the_file_format() {
     fault::assert_none(&faults);
 }
 
+#[test]
+fn every_crate_forbids_unsafe_code() {
+    let is_root = |name: &str| name.ends_with("/src/lib.rs") || name.ends_with("/src/main.rs");
+    let roots: Vec<_> =
+        tree::files("crates", ".rs").into_iter().filter(|file| is_root(&file.name)).collect();
+    assert!(roots.len() >= 5);
+    let faults: Vec<_> =
+        roots.iter().flat_map(|file| forbids_unsafe_code(&file.name, &file.text)).collect();
+    fault::assert_none(&faults);
+}
+
 mod refuses {
     use super::*;
     use crate::fault::assert_lines;
@@ -161,6 +179,12 @@ mod refuses {
     fn a_report_that_can_change_a_run() {
         let text = "fn a(surface: &Surface) {}\nfn b(surface: &mut Surface) {}\nfn c(n: &mut abrade::Nodes) {}";
         assert_lines(&reports_only_look("a.rs", text), &[2, 3]);
+    }
+
+    #[test]
+    fn a_crate_that_may_be_unsafe() {
+        assert_lines(&forbids_unsafe_code("lib.rs", "//! A.\n// #![forbid(unsafe_code)]"), &[1]);
+        assert_lines(&forbids_unsafe_code("lib.rs", "//! A.\n#![forbid(unsafe_code)]"), &[]);
     }
 
     #[test]
