@@ -24,6 +24,9 @@ const ETA_ACCURACY: f64 = 3e-3;
 const ETA_LIMIT: f64 = 0.7;
 /// A trial is rejected above this multiple of eta.
 const REJECT: f64 = 1.5;
+/// Share of the allowed step below which a jump of an overlap is taken as it is: where another
+/// face carves a node, no step is short enough.
+const OVERLAP_STEP: f64 = 1e-2;
 /// Growth of the step from one to the next.
 const GROWTH: f64 = 2.0;
 /// First step into contact, in yield overlaps travelled.
@@ -348,7 +351,7 @@ fn rejected(trial: &Trial, dt: f64, allowed: f64) -> Option<f64> {
         None
     } else if dt > REJECT * allowed {
         Some(allowed.min(0.7 * dt))
-    } else if trial.overlap_change > 1.0 {
+    } else if trial.overlap_change > 1.0 && dt > OVERLAP_STEP * allowed {
         Some(dt * (0.8 / trial.overlap_change).max(0.1))
     } else {
         None

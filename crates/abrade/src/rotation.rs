@@ -54,6 +54,11 @@ impl Dynamics {
         Self { guide: Some(free), ..self }
     }
 
+    /// True for a body that turns like a ball.
+    pub(crate) fn is_isotropic(&self) -> bool {
+        self.isotropic
+    }
+
     /// True for a body that something else leads.
     pub(crate) fn is_guided(&self) -> bool {
         self.guide.is_some()

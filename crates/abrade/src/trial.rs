@@ -13,6 +13,9 @@ use crate::projection::{balance, pay};
 use crate::rotation::Dynamics;
 use crate::toll::{Push, Toll};
 
+/// Largest predicted change of the speed by columns without springs, as a share of it.
+const PREDICTION: f64 = 0.1;
+
 /// What contacts do to a body at an instant.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Pull {
@@ -101,9 +104,9 @@ impl Integrator {
         let mut state = body.state;
         self.kick(body, loads, &self.pull.spring_force, &self.pull.spring_torque, half, &mut state);
         let kicked = state;
-        let swept = self.swept_pull();
-        state.velocity += self.dynamics.accelerate(&(swept.0 * half));
-        state.spin += self.dynamics.turn(&state.rotation, &(swept.1 * half));
+        let swept = self.swept_prediction(body, half);
+        state.velocity += swept.0;
+        state.spin += swept.1;
         let (velocity, predicted) = (state.velocity, state.spin);
         let spin = self.dynamics.drift(&mut state, dt);
         state.velocity = kicked.velocity;
@@ -161,14 +164,26 @@ impl Integrator {
         trial
     }
 
-    /// Mean force and torque of the columns over the last step: with springs the predictor needs
-    /// them; without, the balance is exact because it does not use them.
-    fn swept_pull(&self) -> (Vector3<f64>, Vector3<f64>) {
-        if !self.has_sprung_columns() {
-            return (Vector3::zeros(), Vector3::zeros());
-        }
+    /// Change of velocity and spin over `half` a step that the columns' last mean force predicts.
+    /// It places the step's end, nothing else: the balance does not use it. Without springs a
+    /// blocked body's last force says nothing, so the prediction stays small; and a body whose
+    /// moments differ keeps its spin, whose free turning must keep the energy.
+    fn swept_prediction(&self, body: &Body, half: f64) -> (Vector3<f64>, Vector3<f64>) {
         let pull = &self.pull;
-        (pull.force - pull.spring_force, pull.torque - pull.spring_torque)
+        let force = pull.force - pull.spring_force;
+        let torque = pull.torque - pull.spring_torque;
+        let velocity = self.dynamics.accelerate(&(force * half));
+        let spin = self.dynamics.turn(&body.state.rotation, &(torque * half));
+        if self.has_sprung_columns() {
+            return (velocity, spin);
+        }
+        let spin = if self.dynamics.is_isotropic() { spin } else { Vector3::zeros() };
+        let radius = body.shape.bounding_radius();
+        let state = &body.state;
+        let speed = state.velocity.norm() + state.spin.norm() * radius;
+        let change = velocity.norm() + spin.norm() * radius;
+        let share = if change > 0.0 { (PREDICTION * speed / change).min(1.0) } else { 0.0 };
+        (velocity * share, spin * share)
     }
 
     fn has_sprung_columns(&self) -> bool {

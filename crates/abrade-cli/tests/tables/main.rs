@@ -1,0 +1,7 @@
+//! The reference tables through the command line: scenes as shipped, rows by `--set`.
+
+mod independence;
+mod paper;
+mod run;
+mod scenes;
+mod theory;
