@@ -43,15 +43,17 @@ fn rms<const N: usize>(shot: &Shot, errors: impl Fn(&End) -> [f64; N]) -> [f64; 
 /// Errors at 10, 20 and 40 nodes across the contact, of the quantities `names`.
 struct Study<const N: usize> {
     names: [&'static str; N],
-    /// Allowed at 20 nodes.
+    /// Allowed at 20 nodes, or 40.
     limits: [f64; N],
+    judged: usize,
     errors: Vec<[[f64; 3]; N]>,
     misses: Vec<String>,
 }
 
 impl<const N: usize> Study<N> {
-    fn new(names: [&'static str; N], limits: [f64; N]) -> Self {
-        Self { names, limits, errors: Vec::new(), misses: Vec::new() }
+    fn new(names: [&'static str; N], nodes: usize, limits: [f64; N]) -> Self {
+        let judged = usize::from(nodes == 40) + 1;
+        Self { names, limits, judged, errors: Vec::new(), misses: Vec::new() }
     }
 
     fn row(&mut self, row: &str, error: impl Fn(f64) -> [f64; N]) {
@@ -62,7 +64,8 @@ impl<const N: usize> Study<N> {
         }
         println!("{line}");
         self.errors.push(std::array::from_fn(|i| [coarse[i], middle[i], fine[i]]));
-        if (0..N).any(|i| middle[i] > self.limits[i]) {
+        let judged = [coarse, middle, fine][self.judged];
+        if (0..N).any(|i| judged[i] > self.limits[i]) {
             self.misses.push(line);
         }
     }
@@ -85,11 +88,12 @@ impl<const N: usize> Study<N> {
     }
 }
 
-/// Fails for a wrong price, lever or friction of a ball in the swept rule. At 20 nodes W is within
-/// 1e-3 E0 where the sphere leaves fast and within 1e-2 where it is nearly stopped.
+/// Fails for a wrong price, lever or friction of a ball in the swept rule. W is within 1e-3 E0 at
+/// 40 nodes in every row, and at 20 nodes in all but three: those at 75 degrees, where the sphere is
+/// nearly stopped, and one at 45.
 #[test]
 fn oblique_spheres_converge_to_the_theory() {
-    let mut study = Study::new(["W", "v", "omega"], [1e-2, 4e-2, 1e-2]);
+    let mut study = Study::new(["W", "v", "omega"], 40, [1e-3, 1e-2, 1e-3]);
     for table in ["rigid_plastic_sphere_oblique", "rigid_plastic_sphere_oblique_friction"] {
         for row in read(table) {
             let [beta, alpha, mu, rot] =
@@ -108,6 +112,8 @@ fn oblique_spheres_converge_to_the_theory() {
             });
         }
     }
+    let within = study.errors.iter().filter(|e| e[0][1] <= 1e-3).count();
+    assert!(within + 3 >= study.errors.len(), "{within} of {} rows", study.errors.len());
     study.finish();
 }
 
@@ -115,7 +121,7 @@ fn oblique_spheres_converge_to_the_theory() {
 /// deepest node lies off the sphere's path by up to a pitch, which costs second order.
 #[test]
 fn normal_spheres_converge_to_the_closed_forms() {
-    let mut study = Study::new(["W", "depth"], [1e-3, 1e-2]);
+    let mut study = Study::new(["W", "depth"], 20, [1e-3, 1e-2]);
     for row in read("rigid_plastic_sphere_normal") {
         let flow = match row["law"].as_str() {
             "cap(paper)" => FlowLaw::CapozzaHanley { lateral: Lateral::Projected },
