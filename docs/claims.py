@@ -23,7 +23,7 @@ from pathlib import Path
 SCENES = Path(__file__).resolve().parent.parent / "scenes"
 PITCH = 0.6015750e-3  # 5012 nodes on 93.5 mm x 16.8 mm
 AREA = 93.5e-3 * 16.8e-3 / 5012
-BALL, INDENTER = 3e-3, 10e-3
+INDENTER = 10e-3
 NODE = 0.25e-3
 ABRADE = ""
 OUT = Path()
@@ -72,6 +72,13 @@ def landings(n, pitch=PITCH):
 
 def at(body, x, y):
     return {f"bodies.{body}.position.at": f'("{x * 1e3:.6f} mm", "{y * 1e3:.6f} mm")'}
+
+
+PLACES = (
+    ("over a node", (0, 0)),
+    ("in a hollow", (0.173662e-3, 0.300792e-3)),
+    ("between two nodes", (0, PITCH / 2)),
+)
 
 
 # Normal impact: Fig. 4, Eq. 16
@@ -154,51 +161,44 @@ def oblique():
     series.append(("Eq5, no lateral flow (mu_a 10)", paper, {flow: "Eq5", **sets}, cell))
     found = [(name, over_angles(*rest)) for name, *rest in series]
 
-    title("Figs. 5, 6: W over the angle, 1e-6 mm3", paper, {flow: "Eq5", "bodies.ball.motion.angle": '"45 deg"'})
-    print("HertzNodes: mean over 36 landings, evenly over the unit cell. mu_a 0.25, 35 m/s if not named.\n")
-    head = ["law"] + [f"{a}" for a in ANGLES] + ["peak at"]
-    table(
-        head,
-        [
-            [name] + [f"{v[0] * 1e6:.0f}" for v in row.values()] + [f"{max(row, key=lambda a: row[a][0])} deg"]
-            for name, row in found
-        ],
-    )
-    print("\n### Share of lateral flow in W (Fig. 5b)\n")
-    table(head[:-1], [[name] + [f"{v[1]:.2f}" if v[0] else "-" for v in row.values()] for name, row in found])
-    print("\n### Restitution (Fig. 7a)\n")
-    table(
-        head[:-1] + ["least at"],
-        [
-            [name] + [f"{v[2]:.3f}" for v in row.values()] + [f"{min(row, key=lambda a: row[a][2])} deg"]
-            for name, row in found
-        ],
-    )
-    print("\n### Deviation, deg (Fig. 7b)\n")
-    table(
-        head[:-1] + ["most at"],
-        [
-            [name] + [f"{v[3]:.1f}" for v in row.values()] + [f"{max(row, key=lambda a: row[a][3])} deg"]
-            for name, row in found
-        ],
-    )
+    first = {flow: "Eq5", "bodies.ball.motion.angle": '"45 deg"'}
+    title("Figs. 5, 6: W over the angle, 1e-6 mm3", paper, first)
+    print("HertzNodes: mean over 36 landings, evenly over the unit cell.")
+    print("mu_a 0.25, 35 m/s if not named.\n")
+    head = ["law"] + [f"{a}" for a in ANGLES]
 
+    def print_column(index, form, last, pick):
+        rows = []
+        for name, row in found:
+            cells = [form.format(v[index]) if v[index] == v[index] else "-" for v in row.values()]
+            extreme = [f"{pick(row, key=lambda a: row[a][index])} deg"] if pick else []
+            rows.append([name] + cells + extreme)
+        table(head + ([last] if last else []), rows)
+
+    found = [(n, {a: (v[0] * 1e6, *v[1:]) for a, v in row.items()}) for n, row in found]
+    print_column(0, "{:.0f}", "peak at", max)
+    print("\n### Share of lateral flow in W (Fig. 5b)\n")
+    print_column(1, "{:.2f}", None, None)
+    print("\n### Restitution (Fig. 7a)\n")
+    print_column(2, "{:.3f}", "least at", min)
+    print("\n### Deviation, deg (Fig. 7b)\n")
+    print_column(3, "{:.1f}", "most at", max)
+
+    steep = {"bodies.ball.motion.angle": '"90 deg"'}
     rows = []
-    for name, place in (("over a node", (0, 0)), ("in a hollow", (0.173662e-3, 0.300792e-3))):
-        ball = run(paper, {"bodies.ball.motion.angle": '"90 deg"', **at("ball", *place)})
-        rows.append([f"paper lattice, {name}", f"{ball['bodies']['ball']['restitution']:.4f}", f"{wear(ball) * 1e6:.0f}"])
-    ball = run(converged, {"bodies.ball.motion.angle": '"90 deg"'})
-    rows.append(["Foundation", f"{ball['bodies']['ball']['restitution']:.4f}", f"{wear(ball) * 1e6:.0f}"])
-    title("90 degrees", paper, {"bodies.ball.motion.angle": '"90 deg"'})
+    cases = [(f"paper lattice, {name}", paper, at("ball", *place)) for name, place in PLACES[:2]]
+    for name, scene, where in [*cases, ("Foundation", converged, {})]:
+        summary = run(scene, {**steep, **where})
+        restitution = summary["bodies"]["ball"]["restitution"]
+        rows.append([name, f"{restitution:.4f}", f"{wear(summary) * 1e6:.0f}"])
+    title("90 degrees", paper, steep)
     table(["case", "COR", "W 1e-6 mm3"], rows)
 
     some = (25, 35, 45, 60, 75, 90)
     rows = []
     for pitch in (0.6, 0.3, 0.15, 0.1):
-        sets = {
-            flow: "Eq5",
-            "surfaces.plate.geometry": f'HexStrip(length: "8 mm", width: "6 mm", pitch: "{pitch} mm")',
-        }
+        strip = f'HexStrip(length: "8 mm", width: "6 mm", pitch: "{pitch} mm")'
+        sets = {flow: "Eq5", "surfaces.plate.geometry": strip}
         row = over_angles(paper, sets, landings(4, pitch * 1e-3), some)
         rows.append([f"{pitch} mm"] + [f"{v[0] * 1e6:.0f}" for v in row.values()])
     title("The peak belongs to the pitch: W over the angle, 1e-6 mm3, 16 landings", paper, sets)
@@ -207,11 +207,9 @@ def oblique():
 
 # Indentation: Fig. 8, Eq. 19
 
-PLACES = (
-    ("over a node", (0, 0)),
-    ("in a hollow", (0.173662e-3, 0.300792e-3)),
-    ("between two nodes", (0, PITCH / 2)),
-)
+def sunk(summary):
+    """Depth of the indenter below the place where it touches, um."""
+    return (NODE + INDENTER - summary["bodies"]["indenter"]["position_m"][2]) * 1e6
 
 
 def bisect(worn, low, high, tolerance):
@@ -237,11 +235,12 @@ def indentation():
                 f"{plate(at3)['max_depth_m'] * 1e6:.1f}",
                 f"{plate(full)['indented_area_m2'] * 1e6:.2f}",
                 f"{wear(full):.3f}",
-                f"{(NODE + INDENTER - full['bodies']['indenter']['position_m'][2]) * 1e6:.0f}",
+                f"{sunk(full):.0f}",
             ]
         )
     title("Fig. 8: indentation", paper, {load: '"1.8 kN"'})
-    table(["start", "first wear kN", "deepest at 3 kN um", "area at 21 kN mm2", "W at 21 kN mm3", "sunk at 21 kN um"], rows)
+    full_load = ["area at 21 kN mm2", "W at 21 kN mm3", "sunk at 21 kN um"]
+    table(["start", "first wear kN", "deepest at 3 kN um", *full_load], rows)
 
 
 # Scratching: Figs. 3, 9 to 11
@@ -303,7 +302,7 @@ def arrays(path, names):
 
 
 def contact(summary):
-    """Area of contact A_z (nodes in contact times a_s), from the surface and the body's position."""
+    """Area of contact A_z: nodes in contact times a_s, from the surface and the body's place."""
     points = arrays(OUT / "surface_0000.vtp", ["Points"])["Points"]
     centre = summary["bodies"]["indenter"]["position_m"]
     nodes = zip(points[0::3], points[1::3], points[2::3])
@@ -341,23 +340,22 @@ def hardness():
 
 
 def bearing():
+    before = plate(run(SCRATCH, loaded(21000, 0.001, 0.001, False)))
     rows = []
     for distance in (0.02, 0.05, 0.1, 0.5, 1, 3, 12):
         summary = run(SCRATCH, loaded(21000, distance, distance, False))
-        base = run(SCRATCH, loaded(21000, 0.001, 0.001, False))
-        surface = plate(summary)
-        before = plate(base)
-        rows.append(
-            [
-                f"{distance}",
-                f"{(surface['wear_volume_normal_m3'] - before['wear_volume_normal_m3']) * 1e9:.3f}",
-                f"{(surface['wear_volume_lateral_m3'] - before['wear_volume_lateral_m3']) * 1e9:.3f}",
-                f"{(NODE + INDENTER - summary['bodies']['indenter']['position_m'][2]) * 1e6:.0f}",
-                f"{-summary['bodies']['indenter']['mean_force_N'][0] / 1e3:.2f}",
-            ]
-        )
-    title("Fig. 9: from indentation to scratching at 21 kN", SCRATCH, loaded(21000, 0.02, 0.02, False))
-    table(["slid mm", "W by normal flow since the start mm3", "W by lateral flow mm3", "sunk um", "mean F_x kN"], rows)
+        by = [
+            (plate(summary)[key] - before[key]) * 1e9
+            for key in ("wear_volume_normal_m3", "wear_volume_lateral_m3")
+        ]
+        force = -summary["bodies"]["indenter"]["mean_force_N"][0] / 1e3
+        cells = [f"{w:.3f}" for w in by]
+        rows.append([f"{distance}", *cells, f"{sunk(summary):.0f}", f"{force:.2f}"])
+    first = loaded(21000, 0.02, 0.02, False)
+    title("Fig. 9: from indentation to scratching at 21 kN", SCRATCH, first)
+    print("W is counted from 1 um of sliding on.\n")
+    head = ["W by normal flow mm3", "W by lateral flow mm3", "sunk um", "mean F_x kN"]
+    table(["slid mm", *head], rows)
 
     rows = []
     for law in ("Projected", "Eq5"):
@@ -368,7 +366,7 @@ def bearing():
                 [
                     law,
                     f"{ratio}",
-                    f"{(NODE + INDENTER - summary['bodies']['indenter']['position_m'][2]) * 1e6:.0f}",
+                    f"{sunk(summary):.0f}",
                     f"{plate(summary)['wear_rate_m2'] * 1e6:.3f}",
                 ]
             )
@@ -380,7 +378,8 @@ LOADS = (1000, 2000, 5000, 10000, 21000)
 
 
 def rate():
-    plain = {"surfaces.plate.geometry": 'HexStrip(length: "93.5 mm", width: "12 mm", pitch: "0.2 mm")'}
+    strip = 'HexStrip(length: "93.5 mm", width: "12 mm", pitch: "0.2 mm")'
+    plain = {"surfaces.plate.geometry": strip}
     plain["bodies.indenter.position.at"] = '("-41.5 mm", "0 mm")'
     eq5 = {"surfaces.plate.flow.lateral": "Eq5"}
     cases = (
@@ -425,12 +424,14 @@ def ripple():
             }
             run(SCRATCH, sets, '[History(every: "0.1 ms")]')
             with open(OUT / "history.csv", newline="") as file:
-                path = [(float(r["indenter_x_m"]), float(r["indenter_z_m"])) for r in csv.DictReader(file)]
+                lines = list(csv.DictReader(file))
+            path = [(float(r["indenter_x_m"]), float(r["indenter_z_m"])) for r in lines]
             end = path[-1][0]
             path = [(x, z) for x, z in path if x > end - 8e-3]
             line = statistics.linear_regression(*zip(*path))
             rest = [z - line.slope * x - line.intercept for x, z in path]
-            rows.append([law, f"{load / 1e3:g}", f"{(max(rest) - min(rest)) / 2 * 1e6:.2f}", f"{line.slope * 1e3:.2f}"])
+            half = (max(rest) - min(rest)) / 2 * 1e6
+            rows.append([law, f"{load / 1e3:g}", f"{half:.2f}", f"{line.slope * 1e3:.2f}"])
     title("Ripple of the height over the last 8 of 80 mm, less its straight line", SCRATCH, sets)
     table(["law", "load kN", "half peak to peak um", "drift um/mm"], rows)
 
@@ -440,7 +441,11 @@ def ripple():
 
 def energy():
     cases = [
-        ("paper/energy_impact", {"bodies.ball.motion.angle": f'"{a} deg"', **at("ball", *place)}, f"impact, {a} deg, {name}")
+        (
+            "paper/energy_impact",
+            {"bodies.ball.motion.angle": f'"{a} deg"', **at("ball", *place)},
+            f"impact, {a} deg, {name}",
+        )
         for a in (29, 45, 90)
         for name, place in PLACES[:2]
     ]
@@ -459,8 +464,8 @@ def energy():
             row.append("")
         rows.append([name, f"{given:.4g}"] + row)
     title("Figs. 12, 13: energies over what was put in", "paper/energy_impact", cases[0][1])
-    head = ["kinetic", "elastic", "friction", "wear", "history", "numerical", "numerical at accuracy 1e-6"]
-    table(["case", "put in J"] + head, rows)
+    head = ["kinetic", "elastic", "friction", "wear", "history", "numerical"]
+    table(["case", "put in J", *head, "numerical at accuracy 1e-6"], rows)
 
 
 SECTIONS = (normal, oblique, indentation, threshold, hardness, bearing, rate, ripple, energy)
