@@ -18,7 +18,6 @@ pub struct Impact {
     pub strip: HexStrip,
     pub laws: SurfaceLaws,
     pub accuracy: f64,
-    pub ledger: bool,
 }
 
 /// What is left of it.
@@ -26,10 +25,8 @@ pub struct Outcome {
     pub surface: Surface,
     pub body: Body,
     pub advance: abrade::Advance,
-    pub ledger: abrade::Ledger,
     pub restitution: f64,
     pub rebound_angle: f64,
-    pub energy: [f64; 2],
 }
 
 pub fn laws(hardness: f64, elastic: ElasticLaw, flow: FlowLaw) -> SurfaceLaws {
@@ -57,17 +54,7 @@ pub fn paper(case: &str, angle: f64, at: [f64; 2]) -> Impact {
         _ => (3e-3, 2500.0, 35.0, 6.6e9),
     };
     let laws = laws(hardness, hertz(), projected());
-    Impact {
-        radius,
-        density,
-        speed,
-        angle,
-        at,
-        strip: paper_lattice(),
-        laws,
-        accuracy: 2e-4,
-        ledger: false,
-    }
+    Impact { radius, density, speed, angle, at, strip: paper_lattice(), laws, accuracy: 2e-4 }
 }
 
 impl Impact {
@@ -91,24 +78,16 @@ impl Impact {
             state,
             rotation_locked: false,
         };
-        let settings = EncounterSettings {
-            accuracy: self.accuracy,
-            ledger: self.ledger,
-            ..Default::default()
-        };
-        let before = body.inertia.kinetic_energy(&body.state);
+        let settings = EncounterSettings { accuracy: self.accuracy, ..Default::default() };
         let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
         let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
         let advance = encounter
             .advance(&mut body, &mut placed, &Loads::default(), 1e-3, Until::FirstExit, &mut ())
             .expect("an impact");
         let v = body.state.velocity;
-        let after = body.inertia.kinetic_energy(&body.state);
         Outcome {
             restitution: v.norm() / self.speed,
             rebound_angle: v.z.atan2(v.xy().norm()).to_degrees(),
-            ledger: *encounter.ledger(),
-            energy: [before, after],
             surface,
             body,
             advance,

@@ -85,7 +85,7 @@ impl WearWorld {
             }
             self.steer(&mut world, &gravity);
             if !self.driven.is_empty() {
-                let colliders = &*world.colliders;
+                let colliders = world.colliders;
                 let pose = |worn: &WornCollider| {
                     colliders.get(worn.proxy).map_or_else(Isometry3::identity, |c| worn.pose(c))
                 };

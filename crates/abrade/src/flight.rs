@@ -27,7 +27,7 @@ pub(crate) fn free_time(
     let speed = local.velocity.norm() + local.spin.norm() * turning_reach(body);
     let force = acceleration(body, loads);
     let covered = time_to_close(patch.slack(&body.shape, local).max(0.0), speed, force);
-    patch.time_to_touch(local).min(covered)
+    patch.time_to_touch(local, speed, force).min(covered)
 }
 
 /// Time until the boxes of the body and the nodes can meet [s].

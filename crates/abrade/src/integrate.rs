@@ -10,7 +10,7 @@ use crate::body::{Body, State};
 use crate::contact::Contact;
 use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Until};
 use crate::error::PhysicsError;
-use crate::flight::{free_time, separation};
+use crate::flight::{free_time, separation, time_to_close};
 use crate::ledger::Ledger;
 use crate::rotation::Dynamics;
 use crate::surface::Surface;
@@ -161,7 +161,7 @@ impl Integrator {
         let speed = top_speed(body);
         let yield_overlap = self.contacts.iter().map(Contact::yield_overlap);
         let scale = yield_overlap.fold(f64::INFINITY, f64::min);
-        let floor = if speed > 0.0 { FLOOR * scale / speed } else { f64::INFINITY };
+        let floor = time_to_close(FLOOR * scale, speed, self.acceleration(loads));
         let floor = floor.min(limit);
         if free > floor || free == f64::INFINITY {
             (free.min(self.rise_time(body, surfaces)), true)
@@ -183,13 +183,18 @@ impl Integrator {
         times.fold(f64::INFINITY, f64::min)
     }
 
+    /// Bound of what the loads accelerate the body by [m/s2].
+    fn acceleration(&self, loads: &Loads) -> f64 {
+        loads.gravity.norm() + loads.force.norm() * self.dynamics.inverse_mass
+    }
+
     /// Longest step of the swept rule: |v| dt <= 0.1 pitch, and 0.4 yield overlaps with springs.
     fn sweep_limit(&self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads) -> f64 {
         let speed = top_speed(body);
-        let acceleration = loads.gravity.norm() + loads.force.norm() * self.dynamics.inverse_mass;
+        let acceleration = self.acceleration(loads);
         let limit = |(contact, placed): (&Contact, &Placed<'_>)| {
             let reach = contact.sweep_reach(placed.surface)?;
-            Some(crate::flight::time_to_close(reach, speed, acceleration))
+            Some(time_to_close(reach, speed, acceleration))
         };
         self.contacts.iter().zip(surfaces).filter_map(limit).fold(f64::INFINITY, f64::min)
     }

@@ -3,9 +3,12 @@
 
 use std::marker::PhantomData;
 
+use nalgebra::Vector3;
+
 use crate::body::State;
 use crate::candidates::Candidates;
 use crate::elastic::{Elastic, Foundation, HertzNodes, coefficient};
+use crate::flight::time_to_close;
 use crate::flow::{CapozzaHanley, Eq5, Flow, NormalPressure, Projected};
 use crate::inner_loop::{InnerLoop, Reaction};
 use crate::laws::{ElasticLaw, FlowLaw, Lateral};
@@ -97,22 +100,30 @@ impl Patch {
         self.candidates.slack(shape, state)
     }
 
-    /// Shortest time [s] in which a candidate can be touched, the body moving as in `state`.
-    pub(crate) fn time_to_touch(&mut self, state: &State) -> f64 {
+    /// Shortest time [s] in which a candidate can be touched by the body of `state`, whose points
+    /// are no faster than `speed` [m/s] and which nothing accelerates by more than `acceleration`
+    /// [m/s2].
+    pub(crate) fn time_to_touch(&mut self, state: &State, speed: f64, acceleration: f64) -> f64 {
         self.query.place(state);
         match &self.query {
-            BodyQuery::Ball(query) => self.earliest(query, state),
-            BodyQuery::Clump(_) => 0.0,
+            // Newton's estimate from the gap and its rate: early, never late, because the
+            // distance from a node to a ball in straight motion is convex in time.
+            BodyQuery::Ball(query) => {
+                self.earliest(query, acceleration, |m| m.dot(&state.velocity))
+            }
+            BodyQuery::Clump(query) => self.earliest(query, acceleration, |_| speed),
         }
     }
 
-    /// Newton's estimate from the gap and its rate: early, never late, because the distance from
-    /// a node to a ball in straight motion is convex in time.
-    fn earliest(&self, query: &impl Query, state: &State) -> f64 {
+    fn earliest(
+        &self,
+        query: &impl Query,
+        acceleration: f64,
+        approach: impl Fn(&Vector3<f64>) -> f64,
+    ) -> f64 {
         let times = self.candidates.slots.iter().map(|slot| {
             let touch = query.touch(&slot.x, &slot.n);
-            let approach = touch.contact_normal.dot(&state.velocity);
-            if approach > 0.0 { (-touch.overlap / approach).max(0.0) } else { f64::INFINITY }
+            time_to_close(-touch.overlap, approach(&touch.contact_normal), acceleration)
         });
         times.fold(f64::INFINITY, f64::min)
     }

@@ -149,7 +149,7 @@ impl Bodies {
             None => {
                 let state = engine.state(body);
                 let rests = state.velocity.norm() <= REST * track.top_speed;
-                !engine.in_contact(body) && (rests || self.leaves(&state)) || rests
+                rests || (!engine.in_contact(body) && self.leaves(&state))
             }
         })
     }
