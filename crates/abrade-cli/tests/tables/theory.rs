@@ -63,8 +63,8 @@ fn polyhedra() {
     let cases = [
         ("cube", "Cube", 2000.0, 90.0, "cube-generic a90"),
         ("cube", "Cube", 2000.0, 30.0, "cube-generic a30"),
-        ("octahedron", "Octahedron", 4242.640_687_119, 90.0, "octa-generic a90"),
-        ("octahedron", "Octahedron", 4242.640_687_119, 30.0, "octa-generic a30"),
+        ("octahedron", "Octahedron", 4_242.640_687_119, 90.0, "octa-generic a90"),
+        ("octahedron", "Octahedron", 4_242.640_687_119, 30.0, "octa-generic a30"),
         ("tetrahedron", "Tetrahedron", 16_970.562_748_477, 30.0, "tetra-generic a30"),
     ];
     let limits = table("swept_limit_polyhedron");
