@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 
 use crate::theory::{Shot, hull, rigid};
 
-/// Bodies of 06: about one unit across, m = 0.02.
+/// Bodies about one unit across, m = 0.02.
 fn bodies() -> Vec<(&'static str, Shape, Inertia)> {
     let mass = 0.02;
     let solid = |kind: Polyhedron| hull(&kind.vertices(1.0), mass);

@@ -1,8 +1,8 @@
-//! Set-ups of 06 shared by the tests: the paper's plate and bodies, one impact at a time.
+//! Set-ups shared by the tests: the paper's plate and bodies, one impact at a time.
 
 use abrade::{
     Body, ElasticLaw, Encounter, EncounterSettings, FlowLaw, HertzConvention, HexStrip, Inertia,
-    Lateral, Loads, Material, Placed, Removal, Shape, State, Surface, SurfaceLaws, Until,
+    Lateral, Loads, Material, Observer, Placed, Removal, Shape, State, Surface, SurfaceLaws, Until,
 };
 use nalgebra::{Isometry3, Point3, Vector3};
 
@@ -47,7 +47,7 @@ pub fn paper_lattice() -> HexStrip {
     HexStrip::with_nodes(93.5e-3, 16.8e-3, 5012.0)
 }
 
-/// "impact" and "normal" of 06 section 1.
+/// The ball of Figs. 5 to 7, or that of Fig. 4 ("normal"), on the paper's lattice.
 pub fn paper(case: &str, angle: f64, at: [f64; 2]) -> Impact {
     let (radius, density, speed, hardness) = match case {
         "normal" => (10e-3, 8000.0, 45.0, 1.7e9),
@@ -63,7 +63,28 @@ impl Impact {
         self.run_on(surface)
     }
 
-    pub fn run_on(&self, mut surface: Surface) -> Outcome {
+    pub fn run_on(&self, surface: Surface) -> Outcome {
+        self.run_at(surface, Isometry3::identity())
+    }
+
+    /// With the plate, and the impact on it, turned and moved as a whole.
+    pub fn run_at(&self, surface: Surface, pose: Isometry3<f64>) -> Outcome {
+        self.run_seen(surface, pose, false, &mut ())
+    }
+
+    /// With the ledger on, every step shown to `observer`.
+    pub fn watch(&self, observer: &mut dyn Observer) -> Outcome {
+        let surface = Surface::hex_strip(self.strip, self.laws.clone()).expect("a plate");
+        self.run_seen(surface, Isometry3::identity(), true, observer)
+    }
+
+    fn run_seen(
+        &self,
+        mut surface: Surface,
+        pose: Isometry3<f64>,
+        ledger: bool,
+        observer: &mut dyn Observer,
+    ) -> Outcome {
         let inflation = match self.laws.elastic {
             ElasticLaw::HertzNodes { node_radius, .. } => node_radius,
             _ => 0.0,
@@ -75,16 +96,16 @@ impl Impact {
         let mut body = Body {
             shape: Shape::ball(self.radius).expect("a ball"),
             inertia: Inertia::of_ball(self.radius, self.density),
-            state,
+            state: state.placed_by(&pose),
             rotation_locked: false,
         };
-        let settings = EncounterSettings { accuracy: self.accuracy, ..Default::default() };
+        let settings = EncounterSettings { accuracy: self.accuracy, ledger, ..Default::default() };
         let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
-        let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+        let mut placed = [Placed { surface: &mut surface, pose }];
         let advance = encounter
-            .advance(&mut body, &mut placed, &Loads::default(), 1e-3, Until::FirstExit, &mut ())
+            .advance(&mut body, &mut placed, &Loads::default(), 1e-3, Until::FirstExit, observer)
             .expect("an impact");
-        let v = body.state.velocity;
+        let v = body.state.seen_from(&pose).velocity;
         Outcome {
             restitution: v.norm() / self.speed,
             rebound_angle: v.z.atan2(v.xy().norm()).to_degrees(),

@@ -172,3 +172,90 @@ impl Flow for NormalPressure {
         0.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::State;
+    use crate::elastic::Foundation;
+    use crate::node_law::{Motion, resolve};
+    use crate::query::BallQuery;
+    use crate::shape::Ball;
+    use nalgebra::Point3;
+
+    const AREA: f64 = 1e-4;
+
+    /// A unit ball whose centre is at `centre`, on a foundation of 1e3 Pa/m.
+    fn ball(centre: Point3<f64>) -> BallQuery {
+        let ball = Ball { centre: Point3::origin(), radius: 1.0 };
+        let mut query = BallQuery::new(&ball, 1e3, 0.0);
+        query.place(&State::at(centre));
+        query
+    }
+
+    fn node<'a>(query: &'a BallQuery, x: Point3<f64>) -> NodeStep<'a, Foundation, BallQuery> {
+        NodeStep {
+            query,
+            elastic: Foundation::new(0.3),
+            x,
+            n: Vector3::z(),
+            area: AREA,
+            friction: 0.0,
+            heading: Vector3::zeros(),
+            trial_stretch: Vector3::zeros(),
+        }
+    }
+
+    /// Fails for a node that sinks too far, too little, or ahead of the body.
+    #[test]
+    fn a_node_under_a_ball_keeps_the_hardness_and_no_more() {
+        let flow = CapozzaHanley::<Projected> {
+            hardness: 1.0,
+            shear_hardness: 0.25,
+            lateral: Default::default(),
+        };
+        // Pressed in by 10 mm in one step from touch; the hardness allows 1 mm of overlap.
+        let query = ball(Point3::new(0.0, 0.0, 0.99));
+        let motion = Motion { velocity: -Vector3::z(), spin: Vector3::zeros(), dt: 0.01 };
+        let answer =
+            resolve(&flow, &mut node(&query, Point3::origin()), &Spring::default(), &motion);
+        let spring = answer.expect("a contact").spring;
+        assert!((spring.normal_load / AREA - 1.0).abs() < 1e-8);
+        assert!((spring.drop.normal - 9e-3).abs() < 1e-10 && spring.drop.lateral == 0.0);
+        // At half the way the body cannot have pushed it down by more than it moved itself.
+        let motion = Motion { dt: 0.004, ..motion };
+        let old = Spring { overlap: 6e-3, normal_load: AREA, ..Spring::default() };
+        let answer = resolve(&flow, &mut node(&query, Point3::origin()), &old, &motion);
+        assert_eq!(answer.expect("a contact").spring.drop.normal, 0.004);
+    }
+
+    /// Fails for an Eq. 5 that is not the drop onto the moved sphere in the plane of motion.
+    #[test]
+    fn eq5_is_the_exact_drop_in_the_plane_of_motion_as_the_advance_vanishes() {
+        let query = ball(Point3::new(0.0, 0.0, 0.9));
+        let below = |x: f64| 0.9 - (1.0 - x * x).sqrt();
+        let x = 0.2;
+        let start = node(&query, Point3::new(x, 0.0, below(x))).at(0.0);
+        let miss = |dx: f64| {
+            let advance = Advance {
+                step: Vector3::new(dx, 0.0, 0.0),
+                share: 1.0,
+                was_in_contact: true,
+                overlap_change: 0.0,
+            };
+            let drop = Eq5::advance(&start, &advance, &Vector3::x(), &Vector3::z());
+            let exact = below(x) - below(x - dx);
+            (drop / exact - 1.0).abs()
+        };
+        assert!(miss(1e-3) < 5e-3 && miss(1e-5) < 5e-5, "{:e} {:e}", miss(1e-3), miss(1e-5));
+    }
+
+    /// Fails for a gate that counts the closed part of a step.
+    #[test]
+    fn the_lateral_gate_counts_the_open_share_of_a_step() {
+        let cases = [(1.0, 1.0, 1.0), (-1.0, 3.0, 0.75), (3.0, -1.0, 0.75), (-1.0, -1.0, 0.0)];
+        for (before, after, share) in cases {
+            assert_eq!(open_share(before, after), share, "{before} {after}");
+        }
+    }
+}
