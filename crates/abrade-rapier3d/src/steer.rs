@@ -81,7 +81,11 @@ pub(crate) fn steer(
     let gyroscopic = rb.gyroscopic_forces_enabled();
     let limit = BELOW_LIMIT * scalar::wide(parameters.max_linear_velocity());
     let mass = scalar::wide(rb.mass());
-    let pull = gravity * scalar::wide(rb.gravity_scale()) + scalar::vector(rb.user_force()) / mass;
+    // A body that is registered with a mass may have none of Rapier's, which then pulls nothing.
+    let pull = match mass > 0.0 {
+        true => gravity * scalar::wide(rb.gravity_scale()) + scalar::vector(rb.user_force()) / mass,
+        false => Vector3::zeros(),
+    };
     let way = world.position.coords - scalar::vector(rb.center_of_mass());
     let (linvel, linear) =
         Leg::new(&way, &pull, dt, substeps, scalar::wide(rb.linear_damping()), limit);

@@ -68,7 +68,6 @@ impl WornCollider {
 
     /// Volume displaced so far [m3].
     pub fn displaced(&self) -> f64 {
-        let worn = self.surface.worn();
-        worn.normal + worn.lateral + worn.chip
+        self.surface.worn().displaced()
     }
 }

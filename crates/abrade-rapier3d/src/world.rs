@@ -111,6 +111,12 @@ impl WearWorld {
         live.is_some_and(|live| live.encounter.in_contact())
     }
 
+    /// True while the energies of the body's present encounter still grow: from when it comes near
+    /// a surface until it is far from all of them.
+    pub fn in_encounter(&self, handle: RigidBodyHandle) -> bool {
+        self.tracked(handle).is_some_and(|tracked| tracked.live.is_some())
+    }
+
     fn tracked(&self, handle: RigidBodyHandle) -> Option<&Tracked> {
         let slot = self.bodies.get(handle.into_raw_parts().0 as usize)?.as_ref();
         slot.filter(|tracked| tracked.handle == handle)

@@ -21,7 +21,7 @@ pub struct Summary {
     pub complete: bool,
     /// Precision of the engine: `f32` or `f64`.
     pub precision: String,
-    /// Contacts taken by each resolver.
+    /// Steps of bodies near a surface, by the resolver that took them.
     pub resolver: ResolverCounts,
     /// Wall time [s].
     #[serde(rename = "wall_s")]
@@ -47,7 +47,7 @@ pub struct Summary {
     pub stop: Option<String>,
 }
 
-/// Contacts taken by each resolver.
+/// Steps of bodies near a surface, by the resolver that took them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ResolverCounts {
     /// Integrated in f64 between the engine's steps.
@@ -86,7 +86,7 @@ pub struct SurfaceSummary {
     /// Largest total force along minus the normals [N].
     #[serde(rename = "peak_normal_force_N")]
     pub peak_normal_force: f64,
-    /// Area under the touching nodes of an indented body [m2].
+    /// Largest sum of the effective areas of the nodes in normal flow [m2] (Eq. 19).
     #[serde(rename = "indented_area_m2")]
     pub indented_area: f64,
     /// Volume per sliding distance over the last `rate_over` of a driven run [m2].

@@ -117,7 +117,7 @@ impl Contact<'_> {
                 let nodes = (area / self.size.rest_area).max(1.0);
                 let steps = match solution {
                     Solution::QuasiStatic { increment } => {
-                        let increment = increment.unwrap_or(self.size.pitch / 2.0);
+                        let increment = increment.unwrap_or(0.125 * self.size.pitch);
                         10.0 * (1.0 + distance / increment)
                     }
                     Solution::Dynamic {} => {

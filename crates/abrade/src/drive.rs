@@ -48,6 +48,18 @@ pub enum DriveSolution {
     },
 }
 
+impl Drive {
+    /// True for values that end the searches for a load.
+    fn is_sound(&self) -> bool {
+        let increment = match self.solution {
+            DriveSolution::Dynamic => 1.0,
+            DriveSolution::QuasiStatic { increment } => increment,
+        };
+        [self.indent_to, self.load, increment].iter().all(|x| x.is_finite() && *x > 0.0)
+            && [self.speed, self.distance].iter().all(|x| x.is_finite() && *x >= 0.0)
+    }
+}
+
 /// A driven body in its course.
 #[derive(Clone, Debug)]
 pub struct Driven {
@@ -60,13 +72,19 @@ impl Driven {
     /// A driven `body` above `surface`.
     ///
     /// # Errors
-    /// A law that does not go with the body's shape, or a mass that cannot move.
+    /// A law that does not go with the body's shape, a mass that cannot move, or a drive out of
+    /// range.
     pub fn new(
         body: &mut Body,
         surface: &Surface,
         drive: Drive,
         settings: EncounterSettings,
     ) -> Result<Self, PhysicsError> {
+        if !drive.is_sound() {
+            let what = "a drive's loads and increment must be above zero, its speed and distance \
+                        not below, all of them finite";
+            return Err(PhysicsError::Unsupported { what });
+        }
         body.rotation_locked = true;
         body.inertia.mass = drive.mass;
         body.state.velocity = Vector3::zeros();
@@ -103,7 +121,8 @@ impl Driven {
     /// Presses the body straight down until the surface answers with `indent_to`; takes no time.
     ///
     /// # Errors
-    /// A load that is not reached before the body is pressed in by its own size.
+    /// A load that is not reached before the body is pressed in by its own size, or within the
+    /// limit of steps.
     pub fn indent(
         &mut self,
         body: &mut Body,
@@ -124,6 +143,9 @@ impl Driven {
         loop {
             if depth > limit {
                 return Err(PhysicsError::LoadNotReached { load: self.drive.indent_to, depth });
+            }
+            if done.steps > self.integrator.step_limit() {
+                return Err(PhysicsError::TooManySteps { steps: done.steps });
             }
             let target = self.drive.indent_to;
             let load = |trial: &Trial| -trial.force().dot(&down);
@@ -219,7 +241,7 @@ impl Driven {
                 state: &body.state,
                 force: self.force(),
                 surfaces: placed,
-                ledger: None,
+                ledger: self.integrator.kept_ledger(),
             });
         }
         done.contact_time = duration;

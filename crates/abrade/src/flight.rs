@@ -60,11 +60,20 @@ pub(crate) fn separation(surface: &Surface, body: &Body, local: &State, inflatio
 /// Time until the body's box leaves the box of the nodes on the side where it moves out of it
 /// [s]; infinite for a body that is clear or does not rise.
 pub(crate) fn rise_time(surface: &Surface, body: &Body, local: &State, inflation: f64) -> f64 {
-    let leaving = |(gap, approach): (f64, f64)| match gap < 0.0 && approach < 0.0 {
-        true => gap / approach * (1.0 + f64::EPSILON) + f64::MIN_POSITIVE,
-        false => f64::INFINITY,
+    let leaving = |(a, (gap, approach)): (usize, (f64, f64))| {
+        if gap < 0.0 && approach < 0.0 {
+            let time = gap / approach * (1.0 + f64::EPSILON) + f64::MIN_POSITIVE;
+            // The gap may be finer than the position: a step that moves nothing would be asked
+            // for again, for ever.
+            let at = local.position[a];
+            let stuck = at + local.velocity[a] * time == at;
+            if stuck { time - f64::EPSILON * at.abs() / approach } else { time }
+        } else {
+            f64::INFINITY
+        }
     };
-    gaps(surface, body, local, inflation).map(leaving).into_iter().fold(f64::INFINITY, f64::min)
+    let gaps = gaps(surface, body, local, inflation);
+    gaps.into_iter().enumerate().map(leaving).fold(f64::INFINITY, f64::min)
 }
 
 /// Per axis: the gap between the boxes, and the speed at which it closes.

@@ -93,8 +93,17 @@ impl Integrator {
         &self.ledger
     }
 
+    /// The energies, if they are kept.
+    pub(crate) fn kept_ledger(&self) -> Option<&Ledger> {
+        self.settings.ledger.then_some(&self.ledger)
+    }
+
     pub(crate) fn keeps_ledger(&self) -> bool {
         self.settings.ledger
+    }
+
+    pub(crate) fn step_limit(&self) -> u64 {
+        self.settings.step_limit
     }
 
     pub(crate) fn advance(
@@ -118,7 +127,7 @@ impl Integrator {
                 state: &body.state,
                 force: self.pull.force,
                 surfaces,
-                ledger: self.settings.ledger.then_some(&self.ledger),
+                ledger: self.kept_ledger(),
             });
             if self.touched && self.contact_is_over(body, surfaces) {
                 self.end_contact(surfaces);

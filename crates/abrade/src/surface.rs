@@ -151,7 +151,7 @@ impl Surface {
             return Err(error);
         }
         let [columns, rows] = strip.columns_rows();
-        if columns * rows < 1.0 {
+        if columns < 1.0 || rows < 1.0 {
             let reason = format!(
                 "length {} m and width {} m give {columns} columns of {rows} rows at a pitch of {} m",
                 strip.length, strip.width, strip.pitch

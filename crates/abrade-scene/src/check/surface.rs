@@ -1,6 +1,6 @@
 //! Checks of surfaces.
 
-use abrade::{FlowLaw, Lateral, ParameterError, SurfaceError, SurfaceLaws};
+use abrade::{ElasticLaw, FlowLaw, Lateral, ParameterError, SurfaceError, SurfaceLaws};
 
 use super::{Checker, finite};
 use crate::place;
@@ -17,6 +17,11 @@ impl Checker<'_> {
             let path = ScenePath::of(["surfaces", name]);
             self.check_geometry(&path, name, surface);
             self.check_laws(&path, surface);
+            let separates = |c: char| matches!(c, '/' | '\\') || c.is_control();
+            if self.scene.surfaces.len() > 1 && name.contains(separates) {
+                let message = format!("the surface `{name}` cannot be part of a file's name");
+                self.refuse(&path, message, "without `/` or `\\`");
+            }
             match surface.motion {
                 SurfaceMotion::Fixed => {}
                 SurfaceMotion::Kinematic { .. } => {
@@ -82,6 +87,11 @@ impl Checker<'_> {
             flow: surface.flow.clone(),
             removal: surface.removal.clone(),
         };
+        let literal = surface.flow == FlowLaw::CapozzaHanley { lateral: Lateral::Eq5 };
+        if literal && surface.elastic == ElasticLaw::Rigid {
+            let message = "`lateral: Eq5` is the paper's formula for a ball on springs".to_owned();
+            self.refuse(&path.join("flow"), message, "`Rigid` has none; take `lateral: Projected`");
+        }
         for error in laws.check() {
             if let SurfaceError::Missing { law, field } = error {
                 self.missing(path, &surface.material, law, field);

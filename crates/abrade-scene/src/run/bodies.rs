@@ -53,6 +53,8 @@ pub(crate) struct Slide {
     pub volume: f64,
     travelled: f64,
     start: Vector3<f64>,
+    /// Where it slides to: the surface's x, in the world.
+    heading: Vector3<f64>,
     force_sum: Vector3<f64>,
 }
 
@@ -75,6 +77,7 @@ impl Bodies {
                     volume: 0.0,
                     travelled: 0.0,
                     start: body.state.position.coords,
+                    heading: surface.map_or(Vector3::x(), |i| frames[i] * Vector3::x()),
                     force_sum: Vector3::zeros(),
                 }),
                 _ => None,
@@ -166,13 +169,14 @@ impl Bodies {
 impl Slide {
     fn see(&mut self, sample: &Sample<'_>, volume: f64) {
         let (before, from) = (self.travelled, self.volume);
-        self.travelled = (sample.state.position.coords - self.start).xy().norm();
+        self.travelled = (sample.state.position.coords - self.start).dot(&self.heading);
         self.volume = volume;
         self.force_sum += sample.force * (self.travelled - before);
         let threshold = self.distance - self.rate_over;
-        if self.rate_from.is_none() && self.distance > 0.0 && self.travelled >= threshold {
-            let length = self.travelled - before;
-            let share = if length > 0.0 { (threshold - before) / length } else { 1.0 };
+        let length = self.travelled - before;
+        // Not before it slides: the indentation is no part of the rate.
+        if self.rate_from.is_none() && length > 0.0 && self.travelled >= threshold {
+            let share = (threshold - before) / length;
             self.rate_from = Some(from + share.clamp(0.0, 1.0) * (volume - from));
         }
     }

@@ -19,6 +19,9 @@ pub(crate) trait Engine {
     /// True while nodes carry force on a body.
     fn in_contact(&self, body: usize) -> bool;
 
+    /// True while a body's own energies are part of the ledger: near a surface, or driven.
+    fn has_ledger(&self, body: usize) -> bool;
+
     /// The course of a driven body.
     fn driven(&self, body: usize) -> Option<&Driven>;
 
@@ -60,6 +63,7 @@ pub(crate) struct Stepped {
 }
 
 /// The end of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ended {
     pub body: usize,
     pub impulse: Vector3<f64>,

@@ -16,8 +16,8 @@ use crate::run::samples::Course;
 use crate::run::summary::energies;
 use crate::scene::Output;
 
-/// Largest number of history rows per engine step.
-const ROWS: f64 = 1e5;
+/// Largest number of history rows of the contacts of an engine step.
+const ROWS: usize = 100_000;
 
 /// Writes what the scene asks for.
 pub(crate) struct Recorder {
@@ -130,13 +130,16 @@ impl Recorder {
         }
     }
 
-    /// Gets ready for the contact steps of an engine step.
+    /// Gets ready for the contact steps of an engine step; only a history needs them.
     pub(crate) fn open_step(&mut self, engine: &dyn Engine, bodies: &Bodies) {
+        if self.history.is_none() {
+            return;
+        }
         let count = self.volumes.len();
         self.closed = engine.ledger();
         self.courses.clear();
         for body in 0..bodies.tracks.len() {
-            let live = engine.in_contact(body) || engine.driven(body).is_some();
+            let live = engine.has_ledger(body);
             let ledger = if live { self.last_ledgers[body] } else { Ledger::default() };
             self.closed -= ledger;
             let course = Course::new(count, engine.state(body), Vector3::zeros(), ledger);
@@ -183,18 +186,24 @@ impl Recorder {
         if next > self.time + dt {
             return Ok(());
         }
-        let due = ((self.time + dt - next) / every).floor();
+        let time = self.time;
+        let due = ((time + dt - next) / every).floor();
+        let last = due as u64;
+        let instant = |i: u64| next + i as f64 * every - time;
         let touching = self.courses.iter().filter_map(Course::contact);
         let busy = touching.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
-        let mut written = 0.0;
-        for i in 0..=due as u64 {
-            let at = next + i as f64 * every - self.time;
-            let near = busy.is_some_and(|[from, to]| at >= from - every && at <= to + every);
-            if (near && written < ROWS) || i == due as u64 {
+        if let Some([from, to]) = busy {
+            // Instants before the contact are passed over, not tried: there may be billions.
+            let first = ((time + from - next) / every).floor() - 2.0;
+            let near = (first.max(0.0) as u64..last)
+                .map(instant)
+                .skip_while(|&at| at < from - every)
+                .take_while(|&at| at <= to + every);
+            for at in near.take(ROWS) {
                 self.row(bodies, at)?;
-                written += 1.0;
             }
         }
+        self.row(bodies, instant(last))?;
         if let Some(history) = &mut self.history {
             history.next = next + (due + 1.0) * every;
         }
@@ -256,7 +265,9 @@ impl Recorder {
         }
         let wants = |output: &Output| self.outputs.contains(output);
         if wants(&Output::Picture) || wants(&Output::Report) {
-            for (index, name) in self.surface_names.iter().enumerate() {
+            let mut first = None;
+            let shown = if wants(&Output::Picture) { usize::MAX } else { 1 };
+            for (index, name) in self.surface_names.iter().enumerate().take(shown) {
                 let picture = picture(&self.title, engine, bodies, index)?;
                 let only = self.surface_names.len() == 1;
                 let stem = if only { "surface".to_owned() } else { format!("surface_{name}") };
@@ -264,9 +275,10 @@ impl Recorder {
                     let path = self.folder.join(format!("{stem}.png"));
                     abrade_report::atomic::write(&path, &picture)?;
                 }
-                if wants(&Output::Report) && index == 0 {
-                    page::write(&self.folder.join("report.html"), summary, Some(&picture))?;
-                }
+                first.get_or_insert(picture);
+            }
+            if wants(&Output::Report) {
+                page::write(&self.folder.join("report.html"), summary, first.as_deref())?;
             }
         }
         summary.write(&self.folder.join("summary.json"))

@@ -167,11 +167,17 @@ impl Engine for World {
             |id: SurfaceId| self.surfaces.iter().position(|other| *other == id).unwrap_or(0);
         for event in self.wear.events() {
             match event {
-                WearEvent::Ended { body, impulse, contact_time, .. } => stepped.ended.push(Ended {
-                    body: self.indices[body],
-                    impulse: *impulse,
-                    contact_time: *contact_time,
-                }),
+                WearEvent::Ended { body, impulse, contact_time, .. } => {
+                    let ended = Ended {
+                        body: self.indices[body],
+                        impulse: *impulse,
+                        contact_time: *contact_time,
+                    };
+                    // A contact with several surfaces ends once for each, with the joint impulse.
+                    if stepped.ended.last() != Some(&ended) {
+                        stepped.ended.push(ended);
+                    }
+                }
                 WearEvent::NotResolved { body, surface, reason } => stepped.refused.push((
                     self.indices[body],
                     surface_index(*surface),
@@ -198,6 +204,10 @@ impl Engine for World {
 
     fn in_contact(&self, body: usize) -> bool {
         self.wear.in_contact(self.bodies[body])
+    }
+
+    fn has_ledger(&self, body: usize) -> bool {
+        self.driven[body] || self.wear.in_encounter(self.bodies[body])
     }
 
     fn driven(&self, body: usize) -> Option<&Driven> {

@@ -83,7 +83,7 @@ pub enum Solution {
     Dynamic {},
     /// By balance of load and contact force at every increment of the path.
     QuasiStatic {
-        /// Length of an increment [m] (default half a pitch).
+        /// Length of an increment [m] (default an eighth of a pitch).
         #[serde(default, deserialize_with = "quantity::optional_length")]
         #[schemars(with = "Option<Quantity>")]
         increment: Option<f64>,
