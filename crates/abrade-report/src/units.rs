@@ -35,9 +35,13 @@ pub(crate) fn of_extent(extent: f64) -> Unit {
     }
 }
 
-/// The largest unit of volume in which `volume` [m3] is at least a thousandth.
+/// Cubic millimetres for anything from a thousandth of one to a cubic centimetre; beyond, the largest unit
+/// of volume in which `volume` [m3] is at least one.
 pub(crate) fn of_volume(volume: f64) -> Unit {
-    fitting(&VOLUMES, volume * 1e3)
+    match (1e-12..1e-6).contains(&volume.abs()) {
+        true => VOLUMES[2],
+        false => fitting(&VOLUMES, volume),
+    }
 }
 
 fn fitting(units: &[Unit], value: f64) -> Unit {
