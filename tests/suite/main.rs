@@ -7,6 +7,7 @@ mod ledger;
 mod nature;
 mod paper;
 mod rig;
+mod selfsimilar;
 mod sphere;
 mod table;
 mod theory;
