@@ -185,8 +185,8 @@ impl Summary {
 }
 
 impl SurfaceSummary {
-    /// What the nodes and the tally of a surface tell. The caller adds `indented_area` [m2] and
-    /// `wear_rate` [m2], which need the body's path.
+    /// What the nodes and the tally of a surface tell. The caller adds `wear_rate`
+    /// [m2], which needs the body's path.
     pub fn of(nodes: &Nodes, worn: &Worn) -> Self {
         Self {
             nodes: nodes.len(),
@@ -198,7 +198,7 @@ impl SurfaceSummary {
             max_depth: nodes.depth.iter().copied().fold(0.0, f64::max),
             worn_nodes: nodes.depth.iter().filter(|depth| **depth > 0.0).count(),
             peak_normal_force: worn.peak_normal_force,
-            indented_area: 0.0,
+            indented_area: worn.indented_area,
             wear_rate: None,
         }
     }

@@ -69,7 +69,7 @@ impl Column {
     /// Upper end of the solid on which a body whose deep end is at `z` stands [m].
     #[inline]
     pub(crate) fn level_below(&self, z: f64) -> f64 {
-        let under = self.voids.iter().rev_find(|void| void[0] <= z);
+        let under = self.voids.iter().filter(|void| void[0] <= z).last();
         match under {
             // Above a roof that still stands.
             Some(void) if z > void[1] && void[1] < 0.0 => 0.0,
@@ -154,15 +154,6 @@ impl Column {
         -self.floor() - self.voids.iter().map(|void| void[1] - void[0]).sum::<f64>()
     }
 }
-
-/// `rfind` on a short list without a double-ended iterator.
-trait RevFind<'a>: Iterator<Item = &'a Interval> + Sized {
-    fn rev_find(self, keep: impl Fn(&Interval) -> bool) -> Option<&'a Interval> {
-        self.filter(|void| keep(void)).last()
-    }
-}
-
-impl<'a, I: Iterator<Item = &'a Interval>> RevFind<'a> for I {}
 
 #[cfg(test)]
 mod tests {

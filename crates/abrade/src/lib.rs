@@ -54,5 +54,5 @@ pub use ledger::Ledger;
 pub use material::Material;
 pub use nodes::Nodes;
 pub use shape::{Ball, Piece, Shape};
-pub use surface::{HexStrip, Surface, SurfaceLaws, Worn};
+pub use surface::{HexStrip, NODE_LIMIT, Surface, SurfaceLaws, Worn};
 pub use union_inertia::{UnionInertia, overlapping_pairs};

@@ -9,7 +9,7 @@ use crate::material::Material;
 use crate::nodes::Nodes;
 
 /// Nodes a surface may have: indices are 32 bits wide, and a node takes about 90 bytes.
-const NODE_LIMIT: f64 = 2e8;
+pub const NODE_LIMIT: f64 = 2e8;
 
 /// The laws a surface obeys.
 #[derive(Clone, Debug, PartialEq)]

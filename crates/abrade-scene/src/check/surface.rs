@@ -1,15 +1,12 @@
 //! Checks of surfaces.
 
-use abrade::{ElasticLaw, FlowLaw, Lateral, ParameterError, SurfaceError, SurfaceLaws};
+use abrade::{ElasticLaw, FlowLaw, Lateral, NODE_LIMIT, ParameterError, SurfaceError, SurfaceLaws};
 
 use super::{Checker, finite};
 use crate::place;
 use crate::problem::Problem;
 use crate::scene::{Geometry, SceneSurface, SurfaceMotion};
 use crate::spans::ScenePath;
-
-/// Nodes that `abrade` allows a surface to have.
-const NODE_LIMIT: f64 = 2e8;
 
 impl Checker<'_> {
     pub(super) fn check_surfaces(&mut self) {

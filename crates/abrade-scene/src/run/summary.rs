@@ -73,7 +73,6 @@ fn surface(run: &Run<'_>, index: usize) -> SurfaceSummary {
     let surface = run.engine.surface(index);
     let slides = run.bodies.tracks.iter().filter_map(|track| track.slide.as_ref());
     SurfaceSummary {
-        indented_area: surface.worn().indented_area,
         wear_rate: slides.filter(|slide| slide.surface == index).find_map(|slide| slide.rate()),
         ..SurfaceSummary::of(surface.nodes(), surface.worn())
     }
