@@ -8,16 +8,13 @@ use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Pla
 use crate::error::PhysicsError;
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
+use crate::press::{LOAD, LOAD_STEPS, Press};
 use crate::surface::Surface;
 use crate::trial::{Course, Trial};
 
 /// Increments of the indentation in yield overlaps, and in pitches without springs.
 const INDENT_YIELD: f64 = 0.1;
 const INDENT_PITCH: f64 = 0.01;
-/// Relative tolerance of a load that is searched for.
-const LOAD: f64 = 1e-6;
-/// Bisections of a search for a load.
-const LOAD_STEPS: usize = 60;
 
 /// What a driven body does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -159,7 +156,7 @@ impl Driven {
             depth += step;
             done.node_evaluations += trial.evaluations;
             done.steps += 1;
-            self.integrator.lead(body, placed, step, &trial);
+            self.lead(body, placed, step, &trial);
             observer.observe(&Instant {
                 time: 0.0,
                 state: &body.state,
@@ -230,11 +227,11 @@ impl Driven {
         let mut done = Advance { time: duration, ..Advance::default() };
         for i in 0..count as u64 {
             let along = ahead * (travel / count);
-            let sink = self.balance(body, placed, along, down, increment)?;
-            let trial = self.push(body, placed, along + down * sink);
+            let press = Press { along, turn: Vector3::zeros(), down, load: self.drive.load };
+            let trial = self.integrator.press(body, placed, &press, increment)?;
             done.node_evaluations += trial.evaluations;
             done.steps += 1;
-            self.integrator.lead(body, placed, dt, &trial);
+            self.lead(body, placed, dt, &trial);
             done.impulse += self.force() * dt;
             observer.observe(&Instant {
                 time: (i + 1) as f64 * dt,
@@ -246,42 +243,6 @@ impl Driven {
         }
         done.contact_time = duration;
         Ok(done)
-    }
-
-    /// How far the body sinks over the increment `along` so that the load is balanced [m].
-    fn balance(
-        &mut self,
-        body: &Body,
-        placed: &mut [Placed<'_>; 1],
-        along: Vector3<f64>,
-        down: Vector3<f64>,
-        increment: f64,
-    ) -> Result<f64, PhysicsError> {
-        let load = self.drive.load;
-        let mut excess = |sink: f64| {
-            let trial = self.push(body, placed, along + down * sink);
-            -trial.force().dot(&down) - load
-        };
-        let (mut low, mut high) = (-increment, increment);
-        while excess(low) > 0.0 {
-            low *= 2.0;
-        }
-        let limit = body.shape.bounding_radius();
-        while excess(high) < 0.0 {
-            high *= 2.0;
-            if high > limit {
-                return Err(PhysicsError::LoadNotReached { load, depth: high });
-            }
-        }
-        for _ in 0..LOAD_STEPS {
-            let middle = 0.5 * (low + high);
-            let over = excess(middle);
-            if over.abs() < LOAD * load {
-                return Ok(middle);
-            }
-            if over > 0.0 { high = middle } else { low = middle }
-        }
-        Ok(0.5 * (low + high))
     }
 
     /// The sink within `range` at which the load is `target` [m].
@@ -303,6 +264,12 @@ impl Driven {
             if load > target { high = middle } else { low = middle }
         }
         high
+    }
+
+    /// Makes a push that took `dt` [s] the state.
+    fn lead(&mut self, body: &mut Body, placed: &mut [Placed<'_>; 1], dt: f64, trial: &Trial) {
+        let velocities = [trial.shift / dt, body.state.spin];
+        self.integrator.lead(body, placed, trial, velocities);
     }
 
     /// A trial of a straight push by `shift` [m]; commits nothing.

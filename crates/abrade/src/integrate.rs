@@ -28,7 +28,7 @@ const REJECT: f64 = 1.5;
 /// face carves a node, no step is short enough.
 const OVERLAP_STEP: f64 = 1e-2;
 /// Growth of the step from one to the next.
-const GROWTH: f64 = 2.0;
+pub(crate) const GROWTH: f64 = 2.0;
 /// First step into contact, in yield overlaps travelled.
 const FLOOR: f64 = 0.1;
 /// Share of a step below which the turning point is not worth a step of its own.
@@ -50,7 +50,7 @@ pub(crate) struct Integrator {
     /// What the contacts do to the body at the present instant.
     pub(crate) pull: Pull,
     pub(crate) touching: bool,
-    touched: bool,
+    pub(crate) touched: bool,
     energy_before: f64,
     /// Energy that projections with springs were short of [J].
     pub(crate) short: f64,
@@ -157,7 +157,12 @@ impl Integrator {
     }
 
     /// Length of the next step, and whether it is flight, in which no node can be touched.
-    fn next_step(&mut self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads) -> (f64, bool) {
+    pub(crate) fn next_step(
+        &mut self,
+        body: &Body,
+        surfaces: &[Placed<'_>],
+        loads: &Loads,
+    ) -> (f64, bool) {
         let limit = self.sweep_limit(body, surfaces, loads);
         if self.touching {
             return (self.contact_step(body, loads).min(limit), false);
@@ -307,7 +312,7 @@ impl Integrator {
     }
 
     /// True for a body out of contact and wholly above every undeformed surface.
-    fn contact_is_over(&self, body: &Body, surfaces: &[Placed<'_>]) -> bool {
+    pub(crate) fn contact_is_over(&self, body: &Body, surfaces: &[Placed<'_>]) -> bool {
         let mut pairs = self.contacts.iter().zip(surfaces);
         !self.touching
             && pairs.all(|(contact, placed)| {
@@ -323,7 +328,7 @@ impl Integrator {
             && body.inertia.kinetic_energy(&body.state) < STOPPED * self.energy_before
     }
 
-    fn end_contact(&mut self, surfaces: &mut [Placed<'_>]) {
+    pub(crate) fn end_contact(&mut self, surfaces: &mut [Placed<'_>]) {
         for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
             contact.end(placed.surface);
         }
@@ -360,7 +365,7 @@ impl Integrator {
 }
 
 /// A smaller step where the trial asks for one.
-fn rejected(trial: &Trial, dt: f64, allowed: f64) -> Option<f64> {
+pub(crate) fn rejected(trial: &Trial, dt: f64, allowed: f64) -> Option<f64> {
     if trial.touching == 0 {
         None
     } else if dt > REJECT * allowed {
@@ -379,7 +384,7 @@ fn top_speed(body: &Body) -> f64 {
 }
 
 /// An error when the centre of mass is below the undeformed surface.
-fn engulfed(placed: &Placed<'_>, state: &State) -> Result<(), PhysicsError> {
+pub(crate) fn engulfed(placed: &Placed<'_>, state: &State) -> Result<(), PhysicsError> {
     let [low, high] = placed.surface.bounds();
     let local = placed.pose.inverse_transform_point(&state.position);
     let over = (0..2).all(|a| local[a] > low[a] && local[a] < high[a]);

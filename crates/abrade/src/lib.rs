@@ -7,6 +7,7 @@
 
 mod body;
 mod candidates;
+mod carried;
 mod clump_query;
 mod column;
 mod column_law;
@@ -29,6 +30,7 @@ mod material;
 mod node_law;
 mod nodes;
 mod patch;
+mod press;
 mod price;
 mod projection;
 #[cfg(feature = "serde")]
@@ -43,6 +45,7 @@ mod trial;
 mod union_inertia;
 
 pub use body::{Body, Inertia, State};
+pub use carried::{Carried, Grip, Met};
 pub use drive::{Drive, DriveSolution, Driven};
 pub use encounter::{
     Advance, Encounter, EncounterSettings, Instant, Loads, Observer, Placed, Until,
@@ -53,6 +56,7 @@ pub use laws::{ElasticLaw, FlowLaw, HertzConvention, Lateral, Removal};
 pub use ledger::Ledger;
 pub use material::Material;
 pub use nodes::Nodes;
+pub use press::{Hold, Pressed};
 pub use shape::{Ball, Piece, Shape};
 pub use surface::{HexStrip, NODE_LIMIT, Surface, SurfaceLaws, Worn};
 pub use union_inertia::{UnionInertia, overlapping_pairs};

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::body::{Body, State};
+use crate::carried::Grip;
 use crate::contact::Contact;
 use crate::encounter::{Loads, Placed};
 use crate::inner_loop::Reaction;
@@ -23,8 +24,8 @@ pub(crate) struct Pull {
     pub force: Vector3<f64>,
     pub torque: Vector3<f64>,
     /// The part of them that springs exert.
-    spring_force: Vector3<f64>,
-    spring_torque: Vector3<f64>,
+    pub spring_force: Vector3<f64>,
+    pub spring_torque: Vector3<f64>,
     /// Sum of the nodes' normal loads along their normals [N].
     pub push: Vector3<f64>,
 }
@@ -40,6 +41,7 @@ pub(crate) struct Course {
 }
 
 /// A step that may be rejected.
+#[derive(Clone, Debug)]
 pub(crate) struct Trial {
     state: State,
     dt: f64,
@@ -78,7 +80,19 @@ impl Trial {
 
     /// Force of all contacts on the body [N]; of columns, the mean over the step.
     pub(crate) fn force(&self) -> Vector3<f64> {
-        self.springs.force + (self.toll.flow.impulse + self.toll.spring.impulse) / self.dt
+        self.springs.force + self.swept().force
+    }
+
+    /// Torque of all contacts on the body [N m]; of columns, the mean over the step.
+    pub(crate) fn torque(&self) -> Vector3<f64> {
+        self.springs.torque + self.swept().torque
+    }
+
+    /// What columns do to the body, in the mean over the step.
+    pub(crate) fn swept(&self) -> Grip {
+        let (flow, spring) = (&self.toll.flow, &self.toll.spring);
+        let force = (flow.impulse + spring.impulse) / self.dt;
+        Grip { force, torque: (flow.torque + spring.torque) / self.dt }
     }
 
     /// Highest angular frequency [1/s] of the body on the touching springs.
@@ -281,28 +295,29 @@ impl Integrator {
         (elastic, push)
     }
 
-    /// Makes the trial of a led body the state; what leads it pays for everything.
+    /// Makes the trial of a body that something else leads the state, with the velocities that
+    /// the lead gives it; what leads it pays for everything.
     pub(crate) fn lead(
         &mut self,
         body: &mut Body,
         surfaces: &mut [Placed<'_>],
-        dt: f64,
         trial: &Trial,
+        [velocity, spin]: [Vector3<f64>; 2],
     ) {
         let (elastic, push) = self.commit(surfaces, trial, 1.0);
-        let force = trial.force();
+        let (force, torque) = (trial.force(), trial.torque());
         if self.keeps_ledger() {
-            let work = -0.5 * (self.pull.force + force).dot(&trial.shift);
+            let (force, torque) = (self.pull.force + force, self.pull.torque + torque);
+            let turned = self.dynamics.work(&torque, &trial.turn);
+            let work = -0.5 * (force.dot(&trial.shift) + turned);
             self.book_lead(elastic, work, trial.springs.ledger, &trial.toll);
         }
-        let velocity = trial.shift / dt;
-        body.state = State { velocity, ..trial.state };
-        let none = Vector3::zeros();
+        body.state = State { velocity, spin, ..trial.state };
         self.pull = Pull {
             force,
-            torque: none,
+            torque,
             spring_force: trial.springs.force,
-            spring_torque: none,
+            spring_torque: trial.springs.torque,
             push,
         };
         self.touching = trial.touching > 0;

@@ -1,0 +1,252 @@
+//! The island and its steps.
+
+use abrade::{Met, PhysicsError, Placed};
+use nalgebra::Vector3;
+use rapier::dynamics::{RigidBody, RigidBodyHandle};
+use rapier::geometry::{ColliderHandle, NarrowPhase};
+use rapier::math::Vector;
+use rapier::pipeline::{ActiveHooks, PhysicsWorld};
+
+use crate::calm::normal_speed;
+use crate::convert::{from_vector, state, to_vector};
+use crate::filter::Filter;
+use crate::parameters::{refine, refine_joint};
+use crate::rewind::Rewind;
+use crate::wearer::Wearer;
+
+/// Parts of an advance that no step is longer than.
+const COARSEST: f64 = 16.0;
+/// A contact at rest is struck when its impulse exceeds what it carried before by this factor.
+const STRUCK: f64 = 1.5;
+
+/// What an island is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IslandSettings {
+    /// Steps after which an advance is given up.
+    pub step_limit: u64,
+    /// Normal speed below which a body that rings on its springs rests [m/s]; zero for never.
+    pub rest_speed: f64,
+}
+
+/// What an advance did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Done {
+    /// Steps taken.
+    pub steps: u64,
+    /// Nodes taken through the law.
+    pub node_evaluations: u64,
+}
+
+/// An island of bodies in a world of its own.
+pub struct Island {
+    world: PhysicsWorld,
+    wearers: Vec<Wearer>,
+    /// Force and torque of the embedder on each dynamic body.
+    loads: Vec<(RigidBodyHandle, Vector, Vector)>,
+    filter: Filter,
+    rewind: Rewind,
+    settings: IslandSettings,
+    /// Mean force of the contacts at rest in the last step [N].
+    rest_load: f64,
+}
+
+impl Island {
+    /// An island of everything in `world`, in which the `wearers` wear the surfaces that stand on
+    /// `proxies`. User forces of its bodies act on through the whole advance.
+    pub fn new(
+        mut world: PhysicsWorld,
+        wearers: Vec<Wearer>,
+        proxies: Vec<ColliderHandle>,
+        settings: IslandSettings,
+    ) -> Self {
+        refine(&mut world.integration_parameters);
+        for (_, joint) in world.impulse_joints.iter_mut() {
+            refine_joint(&mut joint.data);
+        }
+        for proxy in &proxies {
+            let hooks = ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS;
+            if let Some(collider) = world.colliders.get_mut(*proxy) {
+                collider.set_active_hooks(hooks);
+            }
+        }
+        let loads = |(handle, rb): (RigidBodyHandle, &RigidBody)| {
+            rb.is_dynamic().then(|| (handle, rb.user_force(), rb.user_torque()))
+        };
+        let loads = world.bodies.iter().filter_map(loads).collect();
+        let filter = Filter::new(proxies);
+        Self { world, wearers, loads, filter, rewind: Rewind::default(), settings, rest_load: 0.0 }
+    }
+
+    /// The world.
+    pub fn world(&self) -> &PhysicsWorld {
+        &self.world
+    }
+
+    /// The bodies that wear.
+    pub fn wearers(&self) -> &[Wearer] {
+        &self.wearers
+    }
+
+    /// Takes the island through `duration` [s]. `watch` sees it after every step, with the time
+    /// gone by [s].
+    ///
+    /// # Errors
+    /// A physical state outside the model's reach, or too many steps.
+    pub fn advance(
+        &mut self,
+        surfaces: &mut [Placed<'_>],
+        duration: f64,
+        watch: &mut dyn FnMut(&Self, f64, &[Placed<'_>]),
+    ) -> Result<Done, PhysicsError> {
+        let mut done = Done::default();
+        let mut time = 0.0;
+        let coarsest = duration / COARSEST;
+        self.let_rest(surfaces);
+        while time < duration {
+            let remaining = duration - time;
+            let h = self.length(surfaces).min(coarsest).min(remaining);
+            let taken = self.step(surfaces, h)?;
+            time = if taken == remaining { duration } else { time + taken };
+            done.steps += 1;
+            if done.steps > self.settings.step_limit {
+                return Err(PhysicsError::TooManySteps { steps: done.steps });
+            }
+            watch(self, time, surfaces);
+        }
+        done.node_evaluations = self.wearers.iter().map(|w| w.contact.node_evaluations()).sum();
+        Ok(done)
+    }
+
+    /// Bodies that are slow at the start begin at rest.
+    fn let_rest(&mut self, surfaces: &[Placed<'_>]) {
+        let limit = self.settings.rest_speed;
+        for wearer in &mut self.wearers {
+            wearer.calm.rests = normal_speed(&wearer.body, surfaces) < limit;
+        }
+        self.mark();
+    }
+
+    /// Tells the filter who rests.
+    fn mark(&mut self) {
+        self.filter.forget();
+        self.filter.wearers.clear();
+        self.filter.wearers.extend(self.wearers.iter().map(|w| (w.handle, w.calm.rests)));
+        self.rest_load = 0.0;
+    }
+
+    /// Length of the next step [s].
+    fn length(&mut self, surfaces: &mut [Placed<'_>]) -> f64 {
+        let on_springs = self.wearers.iter_mut().filter(|w| !w.calm.rests);
+        on_springs.map(|w| w.step(surfaces)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// A step of at most `h` [s]; returns its length.
+    fn step(&mut self, surfaces: &mut [Placed<'_>], h: f64) -> Result<f64, PhysicsError> {
+        let mut h = h;
+        self.rewind.save(&self.world.bodies);
+        loop {
+            if h < f64::MIN_POSITIVE / f64::EPSILON {
+                return Err(PhysicsError::StepVanished { step: h });
+            }
+            self.push(surfaces, h);
+            self.world.integration_parameters.dt = h;
+            self.world.step_with_events(&self.filter, &());
+            match self.follow(surfaces, h)? {
+                Met::Fits => break,
+                Met::TooLong(shorter) => {
+                    self.rewind.restore(&mut self.world.bodies);
+                    h = shorter;
+                }
+            }
+        }
+        self.watch_calm(surfaces, h);
+        Ok(h)
+    }
+
+    /// Sets the forces of the present instant.
+    fn push(&mut self, surfaces: &mut [Placed<'_>], h: f64) {
+        for (handle, force, torque) in &self.loads {
+            let Some(rb) = self.world.bodies.get_mut(*handle) else { continue };
+            rb.reset_forces(false);
+            rb.reset_torques(false);
+            rb.add_force(*force, true);
+            rb.add_torque(*torque, true);
+        }
+        for wearer in self.wearers.iter_mut().filter(|w| !w.calm.rests) {
+            wearer.grasp(surfaces, h);
+            let Some(rb) = self.world.bodies.get_mut(wearer.handle) else { continue };
+            rb.add_force(to_vector(&wearer.grip.force), true);
+            rb.add_torque(to_vector(&wearer.grip.torque), true);
+        }
+    }
+
+    /// Lets every surface follow, or none.
+    fn follow(&mut self, surfaces: &mut [Placed<'_>], h: f64) -> Result<Met, PhysicsError> {
+        let impulse = self.rest_impulse();
+        if self.is_struck(impulse, h) {
+            self.wearers.iter_mut().for_each(|w| w.calm.wake());
+            self.mark();
+            return Ok(Met::TooLong(0.5 * h));
+        }
+        for wearer in &mut self.wearers {
+            let Some(rb) = self.world.bodies.get(wearer.handle) else { continue };
+            let end = state(rb);
+            if wearer.calm.rests {
+                wearer.body.state = end;
+            } else if let Met::TooLong(shorter) = wearer.meet(surfaces, &end, h)? {
+                return Ok(Met::TooLong(shorter));
+            }
+        }
+        self.rest_load = impulse / h;
+        let mut on_springs = self.wearers.iter_mut().filter(|w| !w.calm.rests);
+        on_springs.try_for_each(|w| w.follow(surfaces, h))?;
+        Ok(Met::Fits)
+    }
+
+    /// Impulse of the contacts at rest in the last step [N s].
+    fn rest_impulse(&self) -> f64 {
+        let pairs = self.filter.proxies.iter();
+        let narrow: &NarrowPhase = &self.world.narrow_phase;
+        let of = |proxy: &ColliderHandle| -> f64 {
+            narrow.contact_pairs_with(*proxy).map(|pair| pair.total_impulse().length()).sum()
+        };
+        pairs.map(of).sum()
+    }
+
+    /// Do contacts at rest carry an impulse that resting does not explain?
+    fn is_struck(&self, impulse: f64, h: f64) -> bool {
+        let resting = self.wearers.iter().filter(|w| w.calm.rests);
+        let mass: f64 = resting.map(|w| w.body.inertia.mass).sum();
+        let borne = self.rest_load;
+        impulse > mass * self.settings.rest_speed + STRUCK * borne * h
+    }
+
+    /// Puts bodies that only ring to rest.
+    fn watch_calm(&mut self, surfaces: &[Placed<'_>], h: f64) {
+        let limit = self.settings.rest_speed;
+        if limit <= 0.0 {
+            return;
+        }
+        let mut changed = false;
+        for wearer in self.wearers.iter_mut().filter(|w| !w.calm.rests) {
+            let speed = normal_speed(&wearer.body, surfaces);
+            let touching = wearer.contact.in_contact();
+            let period = wearer.contact.period();
+            wearer.calm.watch(speed, limit, touching, period, h);
+            changed |= wearer.calm.rests;
+        }
+        if changed {
+            self.mark();
+        }
+    }
+
+    /// Ends every contact: overhangs break off.
+    pub fn end(&mut self, surfaces: &mut [Placed<'_>]) {
+        self.wearers.iter_mut().for_each(|w| w.end(surfaces));
+    }
+
+    /// Velocity of a body [m/s].
+    pub fn velocity(&self, body: RigidBodyHandle) -> Option<Vector3<f64>> {
+        self.world.bodies.get(body).map(|rb| from_vector(rb.linvel()))
+    }
+}

@@ -1,0 +1,134 @@
+//! A body of the island that wears surfaces.
+
+use abrade::{Body, Carried, EncounterSettings, Grip, Loads, Met, PhysicsError, Placed, State};
+use nalgebra::{Isometry3, Translation3, Vector3};
+use rapier::dynamics::RigidBodyHandle;
+
+use crate::calm::Calm;
+
+/// A body that wears the island's surfaces.
+pub struct Wearer {
+    /// The body in the island's world.
+    pub handle: RigidBodyHandle,
+    /// Geometry, inertia and present state, in the world.
+    pub body: Body,
+    /// What acts on it beside contacts and joints.
+    pub loads: Loads,
+    pub(crate) contact: Carried,
+    pub(crate) calm: Calm,
+    /// Present answer of the surfaces.
+    pub(crate) grip: Grip,
+    pub(crate) impulse: Vector3<f64>,
+    pub(crate) contact_time: f64,
+    /// By how much each surface is lowered for this body, which an engine left inside it [m].
+    lifts: Vec<f64>,
+}
+
+impl Wearer {
+    /// A wearing body, in whose contact every surface of the island takes part.
+    ///
+    /// # Errors
+    /// A law that does not go with the body's shape, or an inertia out of range.
+    pub fn new(
+        handle: RigidBodyHandle,
+        body: Body,
+        loads: Loads,
+        surfaces: &[Placed<'_>],
+        settings: EncounterSettings,
+    ) -> Result<Self, PhysicsError> {
+        let mut contact = Carried::new(&body, surfaces.iter().map(|p| &*p.surface), settings)?;
+        let lifts = contact.overlaps(&body, surfaces);
+        Ok(Self {
+            handle,
+            body,
+            loads,
+            contact,
+            calm: Calm::default(),
+            grip: Grip::default(),
+            impulse: Vector3::zeros(),
+            contact_time: 0.0,
+            lifts,
+        })
+    }
+
+    /// Its wear contact.
+    pub fn contact(&self) -> &Carried {
+        &self.contact
+    }
+
+    /// Impulse of the surfaces on it so far [N s].
+    pub fn impulse(&self) -> Vector3<f64> {
+        self.impulse
+    }
+
+    /// Time in contact so far [s].
+    pub fn contact_time(&self) -> f64 {
+        self.contact_time
+    }
+
+    /// Runs `act` with the surfaces where they lie for this body.
+    fn lowered<R>(
+        &mut self,
+        surfaces: &mut [Placed<'_>],
+        act: impl FnOnce(&mut Carried, &mut Body, &mut [Placed<'_>]) -> R,
+    ) -> R {
+        let lower = |surfaces: &mut [Placed<'_>], sign: f64| {
+            for (placed, lift) in surfaces.iter_mut().zip(&self.lifts) {
+                if *lift > 0.0 {
+                    placed.pose *= Translation3::new(0.0, 0.0, sign * lift);
+                }
+            }
+        };
+        let poses: Vec<Isometry3<f64>> = match self.lifts.iter().any(|lift| *lift > 0.0) {
+            true => surfaces.iter().map(|placed| placed.pose).collect(),
+            false => Vec::new(),
+        };
+        lower(surfaces, -1.0);
+        let result = act(&mut self.contact, &mut self.body, surfaces);
+        for (placed, pose) in surfaces.iter_mut().zip(poses) {
+            placed.pose = pose;
+        }
+        result
+    }
+
+    /// Longest step that its contact allows [s].
+    pub(crate) fn step(&mut self, surfaces: &mut [Placed<'_>]) -> f64 {
+        let loads = self.loads;
+        self.lowered(surfaces, |contact, body, surfaces| contact.step(body, surfaces, &loads))
+    }
+
+    /// Asks the surfaces about a step of `dt` [s].
+    pub(crate) fn grasp(&mut self, surfaces: &mut [Placed<'_>], dt: f64) {
+        self.grip =
+            self.lowered(surfaces, |contact, body, surfaces| contact.grip(body, surfaces, dt));
+    }
+
+    /// Asks the surfaces whether they can follow it to `end`.
+    pub(crate) fn meet(
+        &mut self,
+        surfaces: &mut [Placed<'_>],
+        end: &State,
+        dt: f64,
+    ) -> Result<Met, PhysicsError> {
+        self.lowered(surfaces, |contact, body, surfaces| contact.meet(body, surfaces, end, dt))
+    }
+
+    /// Lets the surfaces follow a step of `dt` [s] that they can.
+    pub(crate) fn follow(
+        &mut self,
+        surfaces: &mut [Placed<'_>],
+        dt: f64,
+    ) -> Result<(), PhysicsError> {
+        self.lowered(surfaces, |contact, body, surfaces| contact.follow(body, surfaces))?;
+        self.impulse += self.grip.force * dt;
+        if self.contact.in_contact() {
+            self.contact_time += dt;
+        }
+        Ok(())
+    }
+
+    /// Ends its contact where it lies: overhangs break off.
+    pub(crate) fn end(&mut self, surfaces: &mut [Placed<'_>]) {
+        self.contact.end(surfaces);
+    }
+}

@@ -1,0 +1,225 @@
+//! The island against the core's own integrator, which shares nothing with Rapier's solver.
+
+use abrade::{
+    Ball, Body, ElasticLaw, Encounter, EncounterSettings, FlowLaw, HexStrip, Inertia, Lateral,
+    Loads, Material, Piece, Placed, Removal, Shape, State, Surface, SurfaceLaws, UnionInertia,
+    Until, cuboid_vertices,
+};
+use abrade_lockstep::rapier::prelude::*;
+use abrade_lockstep::{Island, IslandSettings, Wearer, to_pose, to_vector};
+use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
+
+const FREE: IslandSettings = IslandSettings { step_limit: 1_000_000, rest_speed: 0.0 };
+
+fn plate(pitch: f64) -> Surface {
+    let material = Material {
+        hardness: 6.6e9,
+        shear_ratio: 0.25,
+        young: Some(200e9),
+        poisson: 0.3,
+        friction: 0.5,
+    };
+    let laws = SurfaceLaws {
+        material,
+        elastic: ElasticLaw::Foundation { stiffness: None },
+        flow: FlowLaw::CapozzaHanley { lateral: Lateral::Projected },
+        removal: Removal::All,
+    };
+    let strip = HexStrip { length: 30e-3, width: 12e-3, pitch, rest_area: None };
+    Surface::hex_strip(strip, laws).expect("a plate")
+}
+
+fn fired(body: &mut Body, speed: f64, angle: f64) {
+    let (sin, cos) = f64::to_radians(angle).sin_cos();
+    body.state.velocity = Vector3::new(speed * cos, 0.0, -speed * sin);
+}
+
+fn ball() -> Body {
+    let (radius, density) = (3e-3, 2500.0);
+    let mut body = Body {
+        shape: Shape::ball(radius).expect("a ball"),
+        inertia: Inertia::of_ball(radius, density),
+        state: State::at(Point3::new(0.0, 0.0, radius + 1e-6)),
+        rotation_locked: false,
+    };
+    fired(&mut body, 35.0, 45.0);
+    body
+}
+
+/// Two balls, 8 mm apart, tilted: what a fixed joint makes of them.
+fn dumbbell() -> Body {
+    let radius = 3e-3;
+    let balls = [-4e-3, 4e-3].map(|x| Ball { centre: Point3::new(x, 0.0, 0.0), radius });
+    let one = Inertia::of_ball(radius, 2500.0);
+    let mut tensor = one.tensor * 2.0;
+    tensor[(1, 1)] += 2.0 * one.mass * 16e-6;
+    tensor[(2, 2)] += 2.0 * one.mass * 16e-6;
+    let mut state = State::at(Point3::new(0.0, 0.0, 8e-3));
+    state.rotation = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), 0.5);
+    let lowest = radius + 4e-3 * 0.5f64.sin();
+    state.position.z = lowest + 1e-6;
+    let shape = Shape::union(balls.map(Piece::Ball).to_vec()).expect("balls");
+    let _ = UnionInertia::of_balls;
+    let inertia = Inertia { mass: 2.0 * one.mass, tensor };
+    let mut body = Body { shape, inertia, state, rotation_locked: false };
+    fired(&mut body, 20.0, 70.0);
+    body
+}
+
+fn by_core(body: &Body, pitch: f64) -> (State, f64) {
+    let (mut body, mut surface) = (body.clone(), plate(pitch));
+    let settings = EncounterSettings { accuracy: 1e-4, ..EncounterSettings::default() };
+    let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
+    let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+    let loads = Loads::default();
+    encounter
+        .advance(&mut body, &mut placed, &loads, 2e-4, Until::Duration, &mut ())
+        .expect("an impact");
+    (body.state, surface.wear_volume())
+}
+
+fn world(plate: &mut PhysicsWorld) -> ColliderHandle {
+    plate.gravity = Vector::ZERO;
+    let slab =
+        ColliderBuilder::cuboid(0.015, 0.006, 0.01).translation(Vector::new(0.0, 0.0, -0.01));
+    plate.colliders.insert(slab)
+}
+
+fn insert(world: &mut PhysicsWorld, body: &Body) -> RigidBodyHandle {
+    let Body { inertia, state, .. } = body;
+    let properties = MassProperties::with_inertia_matrix(
+        Vector::ZERO,
+        inertia.mass,
+        Matrix::from_cols_array(inertia.tensor.as_slice().try_into().expect("nine")),
+    );
+    let builder = RigidBodyBuilder::dynamic()
+        .pose(to_pose(&state.pose()))
+        .linvel(to_vector(&state.velocity))
+        .angvel(to_vector(&state.spin))
+        .additional_mass_properties(properties)
+        .can_sleep(false);
+    let handle = world.insert_body(builder);
+    for piece in body.shape.pieces() {
+        let collider = match piece {
+            Piece::Ball(ball) => {
+                ColliderBuilder::ball(ball.radius).translation(to_vector(&ball.centre.coords))
+            }
+            Piece::Hull(hull) => {
+                let points: Vec<_> = hull.vertices().iter().map(|v| to_vector(&v.coords)).collect();
+                ColliderBuilder::convex_hull(&points).expect("a hull")
+            }
+        };
+        world.insert_collider(collider.density(0.0), Some(handle));
+    }
+    world.bodies[handle].set_allow_fast_rotation(true);
+    handle
+}
+
+/// Takes the bodies through 0.2 ms; returns the state of the first and the wear volume.
+fn by_island(
+    world: PhysicsWorld,
+    proxy: ColliderHandle,
+    bodies: &[(RigidBodyHandle, Body)],
+    pitch: f64,
+    accuracy: f64,
+) -> (Vector3<f64>, Vector3<f64>, f64, u64) {
+    let mut surface = plate(pitch);
+    let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+    let settings = EncounterSettings { accuracy, ..EncounterSettings::default() };
+    let wearers: Vec<_> = bodies
+        .iter()
+        .map(|(h, b)| Wearer::new(*h, b.clone(), Loads::default(), &placed, settings))
+        .collect::<Result<_, _>>()
+        .expect("wearers");
+    let mut island = Island::new(world, wearers, vec![proxy], FREE);
+    let done = island.advance(&mut placed, 2e-4, &mut |_, _, _| ()).expect("an impact");
+    let states: Vec<State> = island.wearers().iter().map(|w| w.body.state).collect();
+    let count = states.len() as f64;
+    let velocity = states.iter().map(|s| s.velocity).sum::<Vector3<f64>>() / count;
+    (velocity, states[0].spin, surface.wear_volume(), done.steps)
+}
+
+/// Fails for a force that lags a step, a torque about the wrong point, a step that is too long for
+/// the springs.
+#[test]
+fn a_lone_ball_does_what_the_core_makes_of_it() {
+    let (expected, volume) = by_core(&ball(), 0.1e-3);
+    for (accuracy, limit) in [(1e-3, 1e-2), (1e-4, 3e-3)] {
+        let mut world_ = PhysicsWorld::default();
+        let proxy = world(&mut world_);
+        let handle = insert(&mut world_, &ball());
+        let (v, w, wear, steps) = by_island(world_, proxy, &[(handle, ball())], 0.1e-3, accuracy);
+        let dv = (v - expected.velocity).norm() / 35.0;
+        let dw = (w - expected.spin).norm() / expected.spin.norm();
+        let miss = wear / volume - 1.0;
+        println!("accuracy {accuracy}: dv {dv:.1e}, dspin {dw:.1e}, dW {miss:+.1e}, {steps} steps");
+        assert!(dv < limit && dw < limit && miss.abs() < limit);
+    }
+}
+
+/// Fails for faces whose force lags, or for an impulse taken for a force.
+#[test]
+fn a_lone_cube_does_what_the_core_makes_of_it() {
+    let corners = cuboid_vertices(&Vector3::repeat(2e-3));
+    let (hull, inertia, _) = abrade::Hull::solid(&corners, 2500.0).expect("a cube");
+    let shape = Shape::union(vec![Piece::Hull(hull)]).expect("a cube");
+    let mut state = State::at(Point3::new(0.0, 0.0, 4e-3));
+    state.rotation = UnitQuaternion::from_euler_angles(0.6, 0.4, 0.1);
+    let lowest = corners.iter().map(|c| (state.rotation * c).z).fold(0.0, f64::min);
+    state.position.z = 1e-6 - lowest;
+    let mut body = Body { shape, inertia, state, rotation_locked: false };
+    fired(&mut body, 20.0, 60.0);
+    let (expected, volume) = by_core(&body, 0.1e-3);
+    let mut world_ = PhysicsWorld::default();
+    let proxy = world(&mut world_);
+    let handle = insert(&mut world_, &body);
+    let (v, w, wear, steps) = by_island(
+        world_,
+        proxy,
+        &[(handle, body)],
+        0.1e-3,
+        std::env::var("ACC").map_or(1e-3, |a| a.parse().unwrap()),
+    );
+    let dv = (v - expected.velocity).norm() / 20.0;
+    let dw = (w - expected.spin).norm() / expected.spin.norm();
+    let miss = wear / volume - 1.0;
+    println!("dv {dv:.1e}, dspin {dw:.1e}, dW {miss:+.1e}, {steps} steps");
+    assert!(dv < 1e-2 && dw < 2e-2 && miss.abs() < 1e-2);
+}
+
+/// Fails for a joint that gives way under an impact, or kicks.
+#[test]
+fn a_jointed_dumbbell_is_one_body() {
+    let whole = dumbbell();
+    let (expected, volume) = by_core(&whole, 0.1e-3);
+    let mut world_ = PhysicsWorld::default();
+    let proxy = world(&mut world_);
+    let mut parts = Vec::new();
+    for piece in whole.shape.pieces() {
+        let Piece::Ball(at) = piece else { continue };
+        let mut part = ball();
+        part.state = whole.state;
+        part.state.position = whole.state.pose() * at.centre;
+        parts.push((insert(&mut world_, &part), part, at.centre));
+    }
+    let anchors = parts.iter().map(|(_, _, c)| to_vector(&-c.coords)).collect::<Vec<_>>();
+    let joint = FixedJointBuilder::new()
+        .local_anchor1(anchors[0])
+        .local_anchor2(anchors[1])
+        .contacts_enabled(false);
+    world_.insert_impulse_joint(parts[0].0, parts[1].0, joint);
+    let bodies: Vec<_> = parts.into_iter().map(|(h, b, _)| (h, b)).collect();
+    let (v, w, wear, steps) = by_island(
+        world_,
+        proxy,
+        &bodies,
+        0.1e-3,
+        std::env::var("ACC").map_or(1e-3, |a| a.parse().unwrap()),
+    );
+    let dv = (v - expected.velocity).norm() / 20.0;
+    let dw = (w - expected.spin).norm() / expected.spin.norm();
+    let miss = wear / volume - 1.0;
+    println!("dv {dv:.1e}, dspin {dw:.1e}, dW {miss:+.1e}, {steps} steps");
+    let _ = Isometry3::<f64>::identity();
+    assert!(dv < 1e-2 && dw < 1e-2 && miss.abs() < 1e-2);
+}

@@ -1,0 +1,208 @@
+//! A body that something else moves, such as the solver of an engine in small steps: the surfaces
+//! answer with a force, and wear as it goes.
+//!
+//! The mover applies the force of the present instant and takes a step (symplectic Euler); the
+//! surfaces follow. Columns, whose force is a mean over a step, are asked about the step ahead.
+
+use std::borrow::Cow;
+use std::ops::Mul;
+
+use nalgebra::Vector3;
+
+use crate::body::{Body, State};
+use crate::contact::Contact;
+use crate::encounter::{EncounterSettings, Loads, Placed};
+use crate::error::PhysicsError;
+use crate::integrate::{GROWTH, Integrator, engulfed, rejected};
+use crate::ledger::Ledger;
+use crate::surface::Surface;
+use crate::trial::{Course, Trial};
+
+/// Contact of a body that something else moves.
+#[derive(Clone, Debug)]
+pub struct Carried {
+    integrator: Integrator,
+    pending: Option<Pending>,
+    /// Length of the last step, if it ended in contact [s].
+    last: f64,
+    evaluations: u64,
+    /// 1 / omega of the last step in contact [s].
+    period_over_tau: f64,
+}
+
+/// What the surfaces do to a carried body.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Grip {
+    /// Force on the body [N].
+    pub force: Vector3<f64>,
+    /// Torque about its centre of mass [N m].
+    pub torque: Vector3<f64>,
+}
+
+/// Whether the surfaces can follow a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Met {
+    /// They can.
+    Fits,
+    /// It is too long for the springs that it meets: a step of this length [s] should be tried.
+    TooLong(f64),
+}
+
+/// A step that the surfaces can follow.
+#[derive(Clone, Debug)]
+struct Pending {
+    trial: Trial,
+    end: State,
+    dt: f64,
+    /// Step that the springs allow [s].
+    allowed: f64,
+}
+
+impl Mul<f64> for Grip {
+    type Output = Self;
+
+    fn mul(self, by: f64) -> Self {
+        Self { force: self.force * by, torque: self.torque * by }
+    }
+}
+
+impl Carried {
+    /// A carried `body` near `surfaces`, not yet in contact.
+    ///
+    /// # Errors
+    /// As [`Encounter::new`](crate::Encounter::new).
+    pub fn new<'a>(
+        body: &Body,
+        surfaces: impl IntoIterator<Item = &'a Surface>,
+        settings: EncounterSettings,
+    ) -> Result<Self, PhysicsError> {
+        let integrator = Integrator::new(body, surfaces, settings)?;
+        Ok(Self { integrator, pending: None, last: 0.0, evaluations: 0, period_over_tau: 0.0 })
+    }
+
+    /// Largest overlap of a node with the body [m], surface by surface.
+    pub fn overlaps(&mut self, body: &Body, surfaces: &[Placed<'_>]) -> Vec<f64> {
+        let pairs = self.integrator.contacts.iter_mut().zip(surfaces);
+        let overlap = |(contact, placed): (&mut Contact, &Placed<'_>)| {
+            let local = body.state.seen_from(&placed.pose);
+            contact.cover(placed.surface, &body.shape, &local, 0.0);
+            contact.deepest(placed.surface, &body.shape, &local)
+        };
+        pairs.map(overlap).collect()
+    }
+
+    /// Length of the next step [s]: in contact a share of the period on the springs; out of it
+    /// the time in which no node can be touched under `loads`.
+    pub fn step(&mut self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads) -> f64 {
+        // A symplectic step leaves the velocity half a kick behind the position.
+        let mut body = Cow::Borrowed(body);
+        let pull = self.integrator.pull.spring_force * (0.5 * self.last);
+        if pull != Vector3::zeros() {
+            body.to_mut().state.velocity += self.integrator.dynamics.accelerate(&pull);
+        }
+        self.integrator.next_step(&body, surfaces, loads).0
+    }
+
+    /// What the surfaces do to the body during a step of `dt` [s] from its present state.
+    ///
+    /// The force of springs is scaled so that its impulse is that of half the step before and
+    /// half the coming one: symplectic Euler with steps of changing length is then leapfrog.
+    pub fn grip(&mut self, body: &Body, surfaces: &[Placed<'_>], dt: f64) -> Grip {
+        let columns = |contact: &Contact| matches!(contact, Contact::Columns(_));
+        let share = if self.last > 0.0 { 0.5 * (self.last + dt) / dt } else { 1.0 };
+        let pull = self.integrator.pull;
+        let springs = Grip { force: pull.spring_force, torque: pull.spring_torque } * share;
+        if !self.integrator.contacts.iter().any(columns) {
+            return springs;
+        }
+        let dynamics = self.integrator.dynamics;
+        let mut end = body.state;
+        end.velocity += dynamics.accelerate(&(pull.force * (0.5 * dt)));
+        end.spin += dynamics.turn(&end.rotation, &(pull.torque * (0.5 * dt)));
+        let (velocity, spin) = (end.velocity, end.spin);
+        dynamics.drift(&mut end, dt);
+        let trial = self.integrator.ask(body, surfaces, &end, Course { velocity, spin, dt });
+        let swept = trial.swept();
+        Grip { force: springs.force + swept.force, torque: springs.torque + swept.torque }
+    }
+
+    /// Asks the surfaces whether they can follow the body to `end` over `dt` [s]; changes nothing.
+    ///
+    /// # Errors
+    /// A state that is not finite.
+    pub fn meet(
+        &mut self,
+        body: &Body,
+        surfaces: &[Placed<'_>],
+        end: &State,
+        dt: f64,
+    ) -> Result<Met, PhysicsError> {
+        let velocity = (end.position - body.state.position) / dt;
+        let spin = (end.rotation * body.state.rotation.inverse()).scaled_axis() / dt;
+        let course = Course { velocity, spin, dt };
+        let trial = self.integrator.ask(body, surfaces, end, course);
+        self.evaluations += trial.evaluations;
+        if !trial.is_finite() {
+            return Err(PhysicsError::NotFinite { time: dt });
+        }
+        let allowed = self.integrator.eta / trial.omega(&self.integrator.dynamics);
+        let shorter = rejected(&trial, dt, allowed);
+        self.pending = shorter.is_none().then_some(Pending { trial, end: *end, dt, allowed });
+        Ok(shorter.map_or(Met::Fits, Met::TooLong))
+    }
+
+    /// Lets nodes and springs follow to where [`Carried::meet`] found that they can.
+    ///
+    /// # Errors
+    /// The body has gone below the surface.
+    pub fn follow(
+        &mut self,
+        body: &mut Body,
+        surfaces: &mut [Placed<'_>],
+    ) -> Result<(), PhysicsError> {
+        let Some(Pending { trial, end, dt, allowed }) = self.pending.take() else { return Ok(()) };
+        let before = self.integrator.next_dt;
+        self.last = if trial.touching > 0 { dt } else { 0.0 };
+        if trial.touching > 0 {
+            self.integrator.touched = true;
+            self.period_over_tau = allowed / self.integrator.eta;
+        }
+        self.integrator.lead(body, surfaces, &trial, [end.velocity, end.spin]);
+        self.integrator.next_dt = allowed.min(GROWTH * dt.max(before.min(allowed)));
+        if self.integrator.touched && self.integrator.contact_is_over(body, surfaces) {
+            self.integrator.end_contact(surfaces);
+        }
+        surfaces.iter().try_for_each(|placed| engulfed(placed, &body.state))
+    }
+
+    /// Ends the contact: overhangs break off.
+    pub fn end(&mut self, surfaces: &mut [Placed<'_>]) {
+        self.integrator.end_contact(surfaces);
+    }
+
+    /// True while a node carries force.
+    pub fn in_contact(&self) -> bool {
+        self.integrator.in_contact()
+    }
+
+    /// Force of the surfaces on the body at the present instant [N].
+    pub fn force(&self) -> Vector3<f64> {
+        self.integrator.pull.force
+    }
+
+    /// Period of the body on the springs that it touches [s]; zero before any contact.
+    pub fn period(&self) -> f64 {
+        std::f64::consts::TAU * self.period_over_tau
+    }
+
+    /// Nodes taken through the law so far.
+    pub fn node_evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// The energies; zeros unless asked for. The kinetic energy is the mover's: what it gave to
+    /// the contact is `external_work`.
+    pub fn ledger(&self) -> &Ledger {
+        self.integrator.ledger()
+    }
+}

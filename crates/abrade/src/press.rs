@@ -1,0 +1,205 @@
+//! A body held against surfaces by a known load, without inertia: at every increment of its path
+//! the height at which the nodes carry the load.
+//!
+//! The paper's driven scratch (Section 3.3) and whatever an engine holds against a surface at
+//! steps that do not resolve the springs.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::body::{Body, State};
+use crate::encounter::{Advance, EncounterSettings, Instant, Observer, Placed};
+use crate::error::PhysicsError;
+use crate::integrate::{Integrator, engulfed};
+use crate::ledger::Ledger;
+use crate::surface::Surface;
+use crate::trial::{Course, Trial};
+
+/// Relative tolerance of a load that is searched for.
+pub(crate) const LOAD: f64 = 1e-6;
+/// Evaluations of a search for a load.
+pub(crate) const LOAD_STEPS: usize = 60;
+/// Increments by which a body that lies in a surface is lifted until it is clear of it.
+const LIFTS: usize = 60;
+
+/// An increment of a pressed body.
+pub(crate) struct Press {
+    /// Displacement [m] and turn [rad], but for the sinking.
+    pub along: Vector3<f64>,
+    pub turn: Vector3<f64>,
+    /// Unit vector along which the body is pressed.
+    pub down: Vector3<f64>,
+    /// Load [N].
+    pub load: f64,
+}
+
+impl Integrator {
+    /// The trial of an increment after which the load is balanced; `scale` [m] is the sinking
+    /// that the search begins with. Commits nothing.
+    pub(crate) fn press(
+        &mut self,
+        body: &Body,
+        placed: &[Placed<'_>],
+        press: &Press,
+        scale: f64,
+    ) -> Result<Trial, PhysicsError> {
+        let load = press.load;
+        let excess = |trial: &Trial| -trial.force().dot(&press.down) - load;
+        let limit = 2.0 * body.shape.bounding_radius() + scale;
+        let bracket = |this: &mut Self, sign: f64| -> Result<[f64; 2], PhysicsError> {
+            let mut sink = sign * scale;
+            loop {
+                let over = excess(&this.push(body, placed, press, sink));
+                if over * sign >= 0.0 {
+                    return Ok([sink, over]);
+                }
+                if !over.is_finite() || sink.abs() > limit {
+                    return Err(PhysicsError::LoadNotReached { load, depth: sink });
+                }
+                sink *= 2.0;
+            }
+        };
+        let (mut low, mut high) = (bracket(self, -1.0)?, bracket(self, 1.0)?);
+        for count in 0..LOAD_STEPS {
+            // Regula falsi in its Illinois form, bisection where it makes no way.
+            let share = low[1] / (low[1] - high[1]);
+            let share = if count % 4 == 3 || !share.is_finite() { 0.5 } else { share };
+            let middle = low[0] + share * (high[0] - low[0]);
+            let trial = self.push(body, placed, press, middle);
+            let over = excess(&trial);
+            if over.abs() < LOAD * load || middle == low[0] || middle == high[0] {
+                return Ok(trial);
+            }
+            let side = if over > 0.0 { &mut high } else { &mut low };
+            *side = [middle, over];
+        }
+        Ok(self.push(body, placed, press, 0.5 * (low[0] + high[0])))
+    }
+
+    /// The trial of an increment by which the body sinks `sink` [m].
+    fn push(&mut self, body: &Body, placed: &[Placed<'_>], press: &Press, sink: f64) -> Trial {
+        let shift = press.along + press.down * sink;
+        let mut end = body.state;
+        end.position += shift;
+        end.rotation = UnitQuaternion::from_scaled_axis(press.turn) * end.rotation;
+        self.ask(body, placed, &end, Course { velocity: shift, spin: press.turn, dt: 1.0 })
+    }
+}
+
+/// A body that is held against surfaces.
+#[derive(Clone, Debug)]
+pub struct Pressed {
+    integrator: Integrator,
+}
+
+/// What holds a pressed body, and how finely its path is followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hold {
+    /// Load that presses the body against the surfaces [N]; its direction is the one in which the
+    /// body finds its height.
+    pub load: Vector3<f64>,
+    /// Time of the move [s].
+    pub duration: f64,
+    /// Longest way of a point of the body between two balances of the load [m].
+    pub increment: f64,
+    /// Most balances of a move; a longer one is sampled more coarsely.
+    pub limit: u64,
+}
+
+impl Pressed {
+    /// A pressed `body` near `surfaces`, not yet in contact.
+    ///
+    /// # Errors
+    /// As [`Encounter::new`](crate::Encounter::new).
+    pub fn new<'a>(
+        body: &Body,
+        surfaces: impl IntoIterator<Item = &'a Surface>,
+        settings: EncounterSettings,
+    ) -> Result<Self, PhysicsError> {
+        Ok(Self { integrator: Integrator::new(body, surfaces, settings)? })
+    }
+
+    /// Moves the body to `end`, but for its height, wearing what it is pressed against.
+    ///
+    /// # Errors
+    /// A load that the surfaces do not carry; a physical state outside the model's reach.
+    pub fn advance(
+        &mut self,
+        body: &mut Body,
+        placed: &mut [Placed<'_>],
+        end: &State,
+        hold: &Hold,
+        observer: &mut dyn Observer,
+    ) -> Result<Advance, PhysicsError> {
+        let mut done = Advance { time: hold.duration, ..Advance::default() };
+        let load = hold.load.norm();
+        let Some(down) = hold.load.try_normalize(0.0).filter(|_| load.is_finite()) else {
+            return Ok(done);
+        };
+        if !self.integrator.touched {
+            self.lift(body, placed, down, hold.increment);
+        }
+        let way = end.position - body.state.position;
+        let way = way - down * down.dot(&way);
+        let turn = (end.rotation * body.state.rotation.inverse()).scaled_axis();
+        let length = way.norm() + turn.norm() * body.shape.bounding_radius();
+        let count = (length / hold.increment).ceil().clamp(1.0, hold.limit.max(1) as f64);
+        let dt = hold.duration / count;
+        let press = Press { along: way / count, turn: turn / count, down, load };
+        for i in 0..count as u64 {
+            let trial = self.integrator.press(body, placed, &press, hold.increment)?;
+            if !trial.is_finite() {
+                return Err(PhysicsError::NotFinite { time: i as f64 * dt });
+            }
+            done.node_evaluations += trial.evaluations;
+            done.steps += 1;
+            let spin = press.turn / dt;
+            let velocity = trial.shift / dt;
+            self.integrator.touched |= trial.touching > 0;
+            self.integrator.lead(body, placed, &trial, [velocity, spin]);
+            done.impulse += self.force() * dt;
+            for placed in placed.iter() {
+                engulfed(placed, &body.state)?;
+            }
+            observer.observe(&Instant {
+                time: (i + 1) as f64 * dt,
+                state: &body.state,
+                force: self.force(),
+                surfaces: placed,
+                ledger: self.integrator.kept_ledger(),
+            });
+        }
+        done.contact_time = hold.duration;
+        Ok(done)
+    }
+
+    /// Lifts a body that an engine left inside the surfaces until it is clear of them.
+    fn lift(&mut self, body: &mut Body, placed: &[Placed<'_>], down: Vector3<f64>, step: f64) {
+        for _ in 0..LIFTS {
+            let mut deepest = 0.0f64;
+            for (contact, placed) in self.integrator.contacts.iter_mut().zip(placed) {
+                let local = body.state.seen_from(&placed.pose);
+                contact.cover(placed.surface, &body.shape, &local, step);
+                deepest = deepest.max(contact.deepest(placed.surface, &body.shape, &local));
+            }
+            if deepest == 0.0 {
+                break;
+            }
+            body.state.position -= down * deepest;
+        }
+    }
+
+    /// Ends the contact: overhangs break off.
+    pub fn end(&mut self, surfaces: &mut [Placed<'_>]) {
+        self.integrator.end_contact(surfaces);
+    }
+
+    /// Force of the surfaces on the body at the end of the last increment [N].
+    pub fn force(&self) -> Vector3<f64> {
+        self.integrator.pull.force
+    }
+
+    /// The energies; zeros unless asked for.
+    pub fn ledger(&self) -> &Ledger {
+        self.integrator.ledger()
+    }
+}
