@@ -45,7 +45,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         // The step in three parts, as an embedder with a loop of its own writes it.
         let guard = wear.begin_step(WorldView::of(&mut world), &hooks);
         world.step_with_events(&guard, &());
-        wear.end_step(&mut world.bodies, &mut world.colliders)?;
+        wear.end_step(WorldView::of(&mut world))?;
         for event in wear.events() {
             if let WearEvent::Ended { volume, .. } = event {
                 println!("step {step}: struck the plate, {:.2e} mm3 worn", 1e9 * volume);

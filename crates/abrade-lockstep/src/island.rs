@@ -1,14 +1,13 @@
 //! The island and its steps.
 
-use abrade::{Met, PhysicsError, Placed};
-use nalgebra::Vector3;
+use abrade::{Met, PhysicsError, Placed, State};
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{ColliderHandle, NarrowPhase};
 use rapier::math::Vector;
 use rapier::pipeline::{ActiveHooks, PhysicsWorld};
 
 use crate::calm::normal_speed;
-use crate::convert::{from_vector, state, to_vector};
+use crate::convert::{state, to_vector};
 use crate::filter::Filter;
 use crate::parameters::{refine, refine_joint};
 use crate::rewind::Rewind;
@@ -16,6 +15,10 @@ use crate::wearer::Wearer;
 
 /// Parts of an advance that no step is longer than.
 const COARSEST: f64 = 16.0;
+/// Angle [rad] by which no body turns in a step, where joints hold and where none does: within a
+/// step Rapier's joints are straight.
+const TURN_HELD: f64 = 0.02;
+const TURN_FREE: f64 = 0.1;
 /// A contact at rest is struck when its impulse exceeds what it carried before by this factor.
 const STRUCK: f64 = 1.5;
 
@@ -104,7 +107,7 @@ impl Island {
         self.let_rest(surfaces);
         while time < duration {
             let remaining = duration - time;
-            let h = self.length(surfaces).min(coarsest).min(remaining);
+            let h = self.length(surfaces).min(self.turning()).min(coarsest).min(remaining);
             let taken = self.step(surfaces, h)?;
             time = if taken == remaining { duration } else { time + taken };
             done.steps += 1;
@@ -113,7 +116,7 @@ impl Island {
             }
             watch(self, time, surfaces);
         }
-        done.node_evaluations = self.wearers.iter().map(|w| w.contact.node_evaluations()).sum();
+        done.node_evaluations = self.wearers.iter().map(Wearer::node_evaluations).sum();
         Ok(done)
     }
 
@@ -138,6 +141,13 @@ impl Island {
     fn length(&mut self, surfaces: &mut [Placed<'_>]) -> f64 {
         let on_springs = self.wearers.iter_mut().filter(|w| !w.calm.rests);
         on_springs.map(|w| w.step(surfaces)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Longest step in which no body turns too far [s].
+    fn turning(&self) -> f64 {
+        let spins = self.world.bodies.iter().map(|(_, rb)| rb.angvel().length());
+        let turn = if self.world.impulse_joints.is_empty() { TURN_FREE } else { TURN_HELD };
+        turn / spins.fold(0.0, f64::max)
     }
 
     /// A step of at most `h` [s]; returns its length.
@@ -245,8 +255,13 @@ impl Island {
         self.wearers.iter_mut().for_each(|w| w.end(surfaces));
     }
 
-    /// Velocity of a body [m/s].
-    pub fn velocity(&self, body: RigidBodyHandle) -> Option<Vector3<f64>> {
-        self.world.bodies.get(body).map(|rb| from_vector(rb.linvel()))
+    /// State of a body of its world.
+    pub fn state(&self, body: RigidBodyHandle) -> Option<State> {
+        self.world.bodies.get(body).map(state)
+    }
+
+    /// The bodies that wear, with their springs, to go on with another time.
+    pub fn into_wearers(self) -> Vec<Wearer> {
+        self.wearers
     }
 }

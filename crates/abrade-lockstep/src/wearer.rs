@@ -1,6 +1,8 @@
 //! A body of the island that wears surfaces.
 
-use abrade::{Body, Carried, EncounterSettings, Grip, Loads, Met, PhysicsError, Placed, State};
+use abrade::{
+    Body, Carried, EncounterSettings, Grip, Ledger, Loads, Met, PhysicsError, Placed, State,
+};
 use nalgebra::{Isometry3, Translation3, Vector3};
 use rapier::dynamics::RigidBodyHandle;
 
@@ -22,6 +24,9 @@ pub struct Wearer {
     pub(crate) contact_time: f64,
     /// By how much each surface is lowered for this body, which an engine left inside it [m].
     lifts: Vec<f64>,
+    worn: Vec<f64>,
+    booked: Ledger,
+    seen: u64,
 }
 
 impl Wearer {
@@ -47,8 +52,42 @@ impl Wearer {
             grip: Grip::default(),
             impulse: Vector3::zeros(),
             contact_time: 0.0,
+            worn: vec![0.0; lifts.len()],
             lifts,
+            booked: Ledger::default(),
+            seen: 0,
         })
+    }
+
+    /// The same body in another island, from where it is.
+    pub fn resumed(self, handle: RigidBodyHandle, loads: Loads) -> Self {
+        let worn = vec![0.0; self.worn.len()];
+        let (impulse, contact_time) = (Vector3::zeros(), 0.0);
+        let booked = *self.contact.ledger();
+        let seen = self.contact.node_evaluations();
+        Self { handle, loads, impulse, contact_time, worn, booked, seen, ..self }
+    }
+
+    /// True when it rests on a contact of Rapier's.
+    pub fn rests(&self) -> bool {
+        self.calm.rests
+    }
+
+    /// Volume displaced on each surface since it joined the island [m3].
+    pub fn worn(&self) -> &[f64] {
+        &self.worn
+    }
+
+    /// Change of its energies since it joined the island; zeros unless asked for.
+    pub fn ledger_gained(&self) -> Ledger {
+        let mut gained = *self.contact.ledger();
+        gained -= self.booked;
+        gained
+    }
+
+    /// Nodes taken through the law since it joined the island.
+    pub fn node_evaluations(&self) -> u64 {
+        self.contact.node_evaluations() - self.seen
     }
 
     /// Its wear contact.
@@ -119,7 +158,16 @@ impl Wearer {
         surfaces: &mut [Placed<'_>],
         dt: f64,
     ) -> Result<(), PhysicsError> {
+        let displaced = |surfaces: &[Placed<'_>], worn: &mut [f64], sign: f64| {
+            for (placed, worn) in surfaces.iter().zip(worn) {
+                *worn += sign * placed.surface.worn().displaced();
+            }
+        };
+        let mut gained = vec![0.0; self.worn.len()];
+        displaced(surfaces, &mut gained, -1.0);
         self.lowered(surfaces, |contact, body, surfaces| contact.follow(body, surfaces))?;
+        displaced(surfaces, &mut gained, 1.0);
+        self.worn.iter_mut().zip(gained).for_each(|(worn, gained)| *worn += gained);
         self.impulse += self.grip.force * dt;
         if self.contact.in_contact() {
             self.contact_time += dt;

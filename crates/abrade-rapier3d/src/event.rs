@@ -7,6 +7,7 @@ use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::ColliderHandle;
 use thiserror::Error;
 
+use crate::resolver::Resolver;
 use crate::surface::SurfaceId;
 
 /// An event of the last step.
@@ -39,6 +40,22 @@ pub enum WearEvent {
         body: RigidBodyHandle,
         /// The surface.
         surface: SurfaceId,
+        /// Why.
+        reason: Refusal,
+    },
+    /// Another resolver has taken a body over.
+    Resolved {
+        /// The body.
+        body: RigidBodyHandle,
+        /// Who resolves its contacts now.
+        by: Resolver,
+        /// Why Micro does not; `None` when it does.
+        reason: Option<Refusal>,
+    },
+    /// A blow could not be taken in lockstep and was resolved by QuasiStatic.
+    NoIsland {
+        /// The body that struck.
+        body: RigidBodyHandle,
         /// Why.
         reason: Refusal,
     },
@@ -78,10 +95,32 @@ pub enum Refusal {
         /// The collider.
         collider: ColliderHandle,
     },
+    /// It lies on a surface, or slides or rolls along it.
+    #[error("the body lies on the surface, or slides or rolls along it")]
+    Resting,
+    /// The world asks for another resolver.
+    #[error("the world asks for another resolver")]
+    Asked,
+    /// It is a link of a multibody.
+    #[error("a body of the island is a link of a multibody")]
+    Multibody,
+    /// Too many bodies hang together.
+    #[error("more than {limit} bodies touch each other or are jointed")]
+    Crowd {
+        /// The most that are taken in lockstep.
+        limit: usize,
+    },
     /// It has no mass, or no solid collider.
     #[error("the body has no mass or no solid collider")]
     Massless,
     /// It lies in the surface already, as left by Rapier.
     #[error("the body lies inside the surface, as left by Rapier's contact")]
     Inside,
+}
+
+impl Refusal {
+    /// True when no resolver can wear anything with the body.
+    pub(crate) fn is_final(&self) -> bool {
+        matches!(self, Self::SurfaceMoves | Self::Shape { .. } | Self::Massless)
+    }
 }

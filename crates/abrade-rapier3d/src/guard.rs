@@ -2,14 +2,19 @@
 //! goes to the embedder's hooks.
 
 use rapier::dynamics::RigidBodyHandle;
-use rapier::geometry::{ColliderHandle, SolverFlags};
+use rapier::geometry::{ColliderHandle, ColliderSet, SolverFlags};
 use rapier::pipeline::{ActiveHooks, ContactModificationContext, PairFilterContext, PhysicsHooks};
+
+use crate::lay::lay;
+use crate::surface::WornCollider;
 
 /// Which pairs are taken; fixed over a step.
 #[derive(Default)]
 pub(crate) struct Taken {
     /// Bodies resolved in this step, sorted.
     bodies: Vec<(u32, u32)>,
+    /// Bodies that Rapier keeps in hand, with the friction of their wear contacts, sorted.
+    held: Vec<((u32, u32), f64)>,
     /// Proxies with the hooks that the embedder had set on them, sorted by handle.
     proxies: Vec<(ColliderHandle, ActiveHooks)>,
 }
@@ -17,6 +22,20 @@ pub(crate) struct Taken {
 impl Taken {
     pub fn clear(&mut self) {
         self.bodies.clear();
+        self.held.clear();
+    }
+
+    pub fn add_held(&mut self, body: RigidBodyHandle, friction: f64) {
+        let key = body.into_raw_parts();
+        if let Err(at) = self.held.binary_search_by_key(&key, |(held, _)| *held) {
+            self.held.insert(at, (key, friction));
+        }
+    }
+
+    fn friction(&self, body: Option<RigidBodyHandle>) -> Option<f64> {
+        let key = body?.into_raw_parts();
+        let at = self.held.binary_search_by_key(&key, |(held, _)| *held).ok()?;
+        Some(self.held[at].1)
     }
 
     pub fn add_proxy(&mut self, proxy: ColliderHandle, user_hooks: ActiveHooks) {
@@ -45,6 +64,7 @@ impl Taken {
 /// Hooks to pass to Rapier's step, between `begin_step` and `end_step`.
 pub struct WearGuard<'a> {
     pub(crate) taken: &'a Taken,
+    pub(crate) surfaces: &'a [WornCollider],
     pub(crate) user: &'a dyn PhysicsHooks,
     pub(crate) dt: f64,
 }
@@ -56,15 +76,23 @@ impl WearGuard<'_> {
         self.dt
     }
 
-    /// True when the embedder asked for `FILTER_CONTACT_PAIRS` on this pair. Proxies carry the
-    /// flag for us, which must not make the embedder's filter see pairs it did not ask for.
-    fn user_asked(&self, context: &PairFilterContext) -> bool {
-        let asked = |handle: ColliderHandle| {
-            let own = context.colliders.get(handle).map(|collider| collider.active_hooks());
+    /// True when the embedder asked for `hook` on this pair. Proxies carry flags for us, which
+    /// must not make the embedder's hooks see pairs they did not ask for.
+    fn user_asked(
+        &self,
+        hook: ActiveHooks,
+        colliders: &ColliderSet,
+        pair: [ColliderHandle; 2],
+    ) -> bool {
+        pair.into_iter().any(|handle| {
+            let own = colliders.get(handle).map(|collider| collider.active_hooks());
             let flags = self.taken.user_hooks(handle).or(own);
-            flags.is_some_and(|flags| flags.contains(ActiveHooks::FILTER_CONTACT_PAIRS))
-        };
-        asked(context.collider1) || asked(context.collider2)
+            flags.is_some_and(|flags| flags.contains(hook))
+        })
+    }
+
+    fn surface_on(&self, proxy: ColliderHandle) -> Option<&WornCollider> {
+        self.surfaces.iter().find(|worn| worn.proxy == proxy)
     }
 }
 
@@ -74,7 +102,9 @@ impl PhysicsHooks for WearGuard<'_> {
         let proxy2 = self.taken.user_hooks(context.collider2).is_some();
         let taken = proxy1 && self.taken.has_body(context.rigid_body2)
             || proxy2 && self.taken.has_body(context.rigid_body1);
-        match (taken, self.user_asked(context)) {
+        let pair = [context.collider1, context.collider2];
+        let asked = self.user_asked(ActiveHooks::FILTER_CONTACT_PAIRS, context.colliders, pair);
+        match (taken, asked) {
             (true, _) => None,
             (false, true) => self.user.filter_contact_pair(context),
             (false, false) => Some(SolverFlags::default()),
@@ -86,6 +116,17 @@ impl PhysicsHooks for WearGuard<'_> {
     }
 
     fn modify_solver_contacts(&self, context: &mut ContactModificationContext) {
-        self.user.modify_solver_contacts(context);
+        let pair = [context.collider1, context.collider2];
+        for ([own, other], body) in
+            [(pair, context.rigid_body2), ([pair[1], pair[0]], context.rigid_body1)]
+        {
+            if let (Some(worn), Some(friction)) = (self.surface_on(own), self.taken.friction(body))
+            {
+                lay(context, worn, other, friction);
+            }
+        }
+        if self.user_asked(ActiveHooks::MODIFY_SOLVER_CONTACTS, context.colliders, pair) {
+            self.user.modify_solver_contacts(context);
+        }
     }
 }

@@ -2,16 +2,17 @@
 
 use abrade::{Advance, Body, Encounter, Loads, PhysicsError, Placed, Until};
 use nalgebra::{Isometry3, Vector3};
-use rapier::dynamics::RigidBodyHandle;
 
-use crate::event::WearEvent;
 use crate::gate::{Course, Lie, Way};
 use crate::observer::Relay;
 use crate::surface::{SurfaceId, WornCollider};
-use crate::tracked::{Contact, Live};
+use crate::tracked::Live;
 
 /// Parts of a step between which a body with something in reach looks where it goes.
 const SLICES: f64 = 64.0;
+
+/// Share of its radius by which a body may lie inside a surface and be lifted out of it.
+const LIFT: f64 = 0.2;
 
 /// How far a body is carried, and what acts on it.
 pub(crate) struct Errand<'a> {
@@ -32,7 +33,22 @@ impl Live {
     ) -> Result<Self, PhysicsError> {
         let met = ids.iter().map(|id| &surfaces[id.0].surface);
         let encounter = Encounter::new(body, met, settings)?;
-        Ok(Self { encounter, surfaces: ids.to_vec(), contact: None })
+        Ok(Self { encounter, surfaces: ids.to_vec() })
+    }
+
+    /// Lifts a body that an engine left inside the surfaces until it is clear of them.
+    pub fn lift(
+        &mut self,
+        body: &mut Body,
+        surfaces: &mut [WornCollider],
+        lies: &[Lie],
+        frame: &Isometry3<f64>,
+    ) {
+        let placed = place(surfaces, &self.surfaces, lies, frame);
+        let overlap = self.encounter.overlap(body, &placed);
+        if overlap < LIFT * body.shape.bounding_radius() {
+            body.state.position.z += overlap;
+        }
     }
 
     /// Carries `body`, whose state is given in the frame of the first surface. Where something
@@ -75,50 +91,6 @@ impl Live {
         }
         Ok(total)
     }
-
-    /// Books what an advance did to the open contact; raises events where it began or ended.
-    pub fn book(
-        &mut self,
-        body: RigidBodyHandle,
-        advance: &Advance,
-        worn: &[(SurfaceId, f64)],
-        frame: &Isometry3<f64>,
-        events: &mut Vec<WearEvent>,
-    ) {
-        let touches = self.encounter.in_contact();
-        if self.contact.is_none() && !touches && advance.contact_time == 0.0 {
-            return;
-        }
-        let contact = self.contact.get_or_insert_with(Contact::default);
-        contact.impulse += frame * advance.impulse;
-        contact.time += advance.contact_time;
-        // A contact that wears nothing is one with the first surface.
-        let elastic = contact.surfaces.is_empty() && worn.iter().all(|(_, volume)| *volume == 0.0);
-        for (at, &(surface, volume)) in worn.iter().enumerate() {
-            if volume == 0.0 && !(elastic && at == 0) {
-                continue;
-            }
-            match contact.surfaces.iter_mut().find(|(id, _)| *id == surface) {
-                Some((_, sum)) => *sum += volume,
-                None => {
-                    contact.surfaces.push((surface, volume));
-                    events.push(WearEvent::Started { body, surface });
-                }
-            }
-        }
-        if !touches {
-            self.end_contact(body, events);
-        }
-    }
-
-    /// Ends the open contact, if there is one.
-    pub fn end_contact(&mut self, body: RigidBodyHandle, events: &mut Vec<WearEvent>) {
-        let Some(contact) = self.contact.take() else { return };
-        let Contact { impulse, time: contact_time, surfaces } = contact;
-        for (surface, volume) in surfaces {
-            events.push(WearEvent::Ended { body, surface, impulse, volume, contact_time });
-        }
-    }
 }
 
 impl Errand<'_> {
@@ -132,7 +104,7 @@ impl Errand<'_> {
 }
 
 /// The surfaces `ids` where they lie in `frame`, the first one exactly at its origin.
-fn place<'a>(
+pub(crate) fn place<'a>(
     surfaces: &'a mut [WornCollider],
     ids: &[SurfaceId],
     lies: &[Lie],

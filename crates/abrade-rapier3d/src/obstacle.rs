@@ -64,6 +64,25 @@ impl Obstacles {
         }
     }
 
+    /// Shows everything but `body` itself that could meet one of its colliders in this step: the
+    /// colliders, and the bodies they are on.
+    pub fn show_near(
+        &self,
+        body: RigidBodyHandle,
+        colliders: &ColliderSet,
+        mut show: impl FnMut(ColliderHandle, Option<RigidBodyHandle>),
+    ) {
+        for own in self.list.iter().filter(|o| o.body == Some(body)) {
+            let Some(mine) = colliders.get(own.collider) else { continue };
+            let others = self.list.iter().filter(|o| o.body != Some(body));
+            for other in others.filter(|o| o.extent.meets(&own.extent)) {
+                if colliders.get(other.collider).is_some_and(|theirs| interact(mine, theirs)) {
+                    show(other.collider, other.body);
+                }
+            }
+        }
+    }
+
     /// The first collider that `body` could run into within `region`, a box in `frame`.
     pub fn in_way(
         &self,

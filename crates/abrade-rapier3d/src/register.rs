@@ -47,7 +47,7 @@ impl WearWorld {
     }
 
     /// Puts `surface` on the collider `proxy`, with its frame at `offset` in the proxy's. Sets
-    /// the proxy's flag `FILTER_CONTACT_PAIRS`, which must stay set. The proxy should end where
+    /// the proxy's flags `FILTER_CONTACT_PAIRS` and `MODIFY_SOLVER_CONTACTS`, which must stay set. The proxy should end where
     /// the nodes do: outside of them a body that wears falls through it.
     ///
     /// # Errors
@@ -65,7 +65,8 @@ impl WearWorld {
             return Err(WearError::ColliderTaken { collider: proxy, surface: SurfaceId(at) });
         }
         let user_hooks = collider.active_hooks();
-        collider.set_active_hooks(user_hooks | ActiveHooks::FILTER_CONTACT_PAIRS);
+        let ours = ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS;
+        collider.set_active_hooks(user_hooks | ours);
         self.taken.add_proxy(proxy, user_hooks);
         self.surfaces.push(WornCollider::new(surface, proxy, offset));
         Ok(SurfaceId(self.surfaces.len() - 1))

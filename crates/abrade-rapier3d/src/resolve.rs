@@ -2,19 +2,27 @@
 //! Rapier with a reason. Other resolvers take their place here, between the two.
 
 use abrade::{PhysicsError, Until};
-use rapier::dynamics::RigidBodyHandle;
+use nalgebra::Vector3;
+use rapier::dynamics::{RigidBody, RigidBodyHandle};
 
+use crate::approach::strike_speed;
+use crate::booking::{Booking, Contact};
 use crate::error::WearError;
 use crate::event::{Refusal, WearEvent};
 use crate::gate::{self, Course, Way};
+use crate::held::Held;
 use crate::micro::Errand;
 use crate::observer::{Relay, WearObserver};
 use crate::path::Extent;
+use crate::resolver::Resolve;
 use crate::surface::{SurfaceId, WornCollider};
 use crate::tracked::{Known, Live, Tracked};
 use crate::view::WorldView;
 use crate::world::{Integrated, WearWorld};
 use crate::{scalar, shadow};
+
+/// A blow comes down faster than rest by this factor.
+const STRIKE: f64 = 1.5;
 
 /// Why a body was left to Rapier.
 enum Left {
@@ -48,18 +56,61 @@ impl WearWorld {
         let exact = tracked.shadow.is_some();
         let Err(left) = self.carry(handle, surface, world, until, observer) else { return };
         let tracked = Tracked::slot(&mut self.bodies, handle);
-        tracked.shadow = None;
         self.closed += tracked.end(&mut self.events);
         match left {
             // Rapier's contacts overlap: only a state that was given exactly is an error.
             Left::Failed(PhysicsError::StartsInside { .. } | PhysicsError::StepVanished { .. })
                 if !exact =>
             {
-                self.refuse(handle, surface, Refusal::Inside);
+                self.hold(handle, Refusal::Inside, world);
             }
-            Left::Refused(reason) => self.refuse(handle, surface, reason),
+            Left::Refused(reason)
+                if self.settings.resolve == Resolve::Micro || reason.is_final() =>
+            {
+                self.refuse(handle, surface, reason);
+            }
+            Left::Refused(reason) => self.hold(handle, reason, world),
             Left::Failed(error) => self.fail(handle, surface, error),
         }
+    }
+
+    /// Leaves a body in Rapier's hands until what it bears is known.
+    fn hold(&mut self, body: RigidBodyHandle, reason: Refusal, world: &WorldView<'_>) {
+        let tracked = Tracked::slot(&mut self.bodies, body);
+        let Some(rb) = world.bodies.get(body) else { return };
+        if let Err(reason) = tracked.derive(rb, world.colliders) {
+            let surface = tracked.near[0];
+            return self.refuse(body, surface, reason);
+        }
+        let gravity = scalar::vector(world.gravity);
+        let rest_speed = gravity.norm() * scalar::wide(rb.gravity_scale()).abs() * self.current.dt;
+        let surfaces = tracked.near.clone();
+        let strike = self.strike(body, rb, &surfaces, &gravity);
+        let strikes = strike.is_some_and(|speed| speed > STRIKE * rest_speed);
+        let tracked = Tracked::slot(&mut self.bodies, body);
+        let first = self.surfaces[surfaces[0].0].surface.laws().material.friction;
+        self.taken.add_held(body, tracked.friction.max(first));
+        self.held.push(Held { body, surfaces, reason, strikes, rest_speed });
+    }
+
+    /// Speed with which the body comes down on a surface in this step, if it does [m/s].
+    fn strike(
+        &self,
+        handle: RigidBodyHandle,
+        rb: &RigidBody,
+        surfaces: &[SurfaceId],
+        gravity: &Vector3<f64>,
+    ) -> Option<f64> {
+        let tracked = Tracked::find(&self.bodies, handle)?;
+        let body = tracked.body()?;
+        let course = Course::of(rb, tracked, gravity);
+        let on = |id: &SurfaceId| {
+            let lie = self.lies.iter().find(|lie| lie.id == *id)?;
+            let pull = -lie.pose.inverse_transform_vector(&course.acceleration).z;
+            let level = self.surfaces[id.0].bounds.high.z;
+            strike_speed(body, &course.state, &lie.pose, level, pull.max(0.0), self.current.dt)
+        };
+        surfaces.iter().filter_map(on).reduce(f64::max)
     }
 
     fn refuse(&mut self, body: RigidBodyHandle, surface: SurfaceId, reason: Refusal) {
@@ -67,11 +118,28 @@ impl WearWorld {
         self.events.push(WearEvent::NotResolved { body, surface, reason });
     }
 
-    fn fail(&mut self, body: RigidBodyHandle, surface: SurfaceId, error: PhysicsError) {
+    pub(crate) fn fail(&mut self, body: RigidBodyHandle, surface: SurfaceId, error: PhysicsError) {
         self.counters.refused += 1;
         let source = error.clone();
         self.events.push(WearEvent::Failed { body, surface, error });
         self.current.failure.get_or_insert(WearError::Physics { body, surface, source });
+    }
+
+    /// True for a body that comes down on its surfaces no faster than what pulls it there makes it
+    /// in a step: it would be back on them within the step.
+    fn rests(&self, handle: RigidBodyHandle, rb: &RigidBody, gravity: &Vector3<f64>) -> bool {
+        let Some(tracked) = Tracked::find(&self.bodies, handle) else { return false };
+        if tracked.is_in_blow() {
+            return false;
+        }
+        let course = Course::of(rb, tracked, gravity);
+        let pull = |id: &SurfaceId| {
+            let lie = self.lies.iter().find(|lie| lie.id == *id)?;
+            Some(-lie.pose.inverse_transform_vector(&course.acceleration).z)
+        };
+        let pull = tracked.near.iter().filter_map(pull).fold(0.0, f64::max);
+        let strike = self.strike(handle, rb, &tracked.near, gravity);
+        strike.is_some_and(|speed| speed < pull * self.current.dt)
     }
 
     /// Gate and Micro.
@@ -90,6 +158,14 @@ impl WearWorld {
             return Err(refusal.into());
         }
         tracked.derive(rb, world.colliders)?;
+        let resolve = self.settings.resolve;
+        if matches!(resolve, Resolve::QuasiStatic | Resolve::Lockstep) {
+            return Err(Refusal::Asked.into());
+        }
+        if resolve == Resolve::Auto && self.rests(handle, rb, &scalar::vector(world.gravity)) {
+            return Err(Refusal::Resting.into());
+        }
+        let tracked = Tracked::slot(&mut self.bodies, handle);
         // An encounter goes on in the frame it began in.
         if !tracked.knows_surfaces(&self.lies) {
             self.closed += tracked.end(&mut self.events);
@@ -97,7 +173,7 @@ impl WearWorld {
         let anchor = tracked.live.as_ref().map_or(surface, |live| live.surfaces[0]);
         let Some(lie) = self.lies.iter().find(|lie| lie.id == anchor) else { return Ok(()) };
         let (frame, bounds) = (lie.pose, self.surfaces[anchor.0].bounds);
-        let (colliders, obstacles) = (world.colliders, &self.obstacles);
+        let (colliders, obstacles) = (&*world.colliders, &self.obstacles);
         let way = Way { body: handle, rb, colliders, obstacles, frame, bounds };
         let gravity = scalar::vector(world.gravity);
         if let Some(refusal) = way.on_course(&Course::of(rb, tracked, &gravity), dt) {
@@ -108,7 +184,11 @@ impl WearWorld {
         body.state = state;
         if tracked.live.is_none() {
             let settings = self.settings.encounter();
-            tracked.live = Some(Live::new(body, &tracked.near, &self.surfaces, settings)?);
+            let mut live = Live::new(body, &tracked.near, &self.surfaces, settings)?;
+            if tracked.shadow.is_none() {
+                live.lift(body, &mut self.surfaces, &self.lies, &frame);
+            }
+            tracked.live = Some(live);
         }
         let Some(live) = &mut tracked.live else { return Ok(()) };
         let seen = Extent { low: state.position, high: state.position };
@@ -121,7 +201,12 @@ impl WearWorld {
         let after = displaced(live, &self.surfaces);
         let gained = after.zip(before).map(|(after, before)| after - before);
         let worn: Vec<_> = live.surfaces.iter().copied().zip(gained).collect();
-        live.book(handle, &advance, &worn, &frame, &mut self.events);
+        let booking = Booking {
+            impulse: frame * advance.impulse,
+            contact_time: advance.contact_time,
+            touches: live.encounter.in_contact(),
+        };
+        Contact::book(&mut tracked.contact, handle, &booking, &worn, &mut self.events);
         self.counters.add(&advance);
         self.integrated.push(Integrated { body: handle, end: body.state, frame });
         if advance.exited && until == Until::FirstExit {
@@ -134,6 +219,7 @@ impl WearWorld {
         if advance.exited && !live.encounter.in_contact() {
             self.closed += tracked.end(&mut self.events);
         }
+        tracked.taken_by_micro(&mut self.surfaces, &self.lies, &mut self.closed, &mut self.events);
         Ok(())
     }
 }

@@ -3,6 +3,8 @@
 use abrade::{Advance, EncounterSettings, Until};
 use rapier::dynamics::RigidBodyHandle;
 
+use crate::resolver::Resolve;
+
 /// Settings of a [`WearWorld`](crate::WearWorld).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WearSettings {
@@ -13,6 +15,8 @@ pub struct WearSettings {
     /// Contact steps after which a body's contact is given up with an error, per step of the
     /// embedder.
     pub step_limit: u64,
+    /// Which resolvers may be used.
+    pub resolve: Resolve,
     /// Whether a step ends early, at the first instant at which a body has left the surfaces.
     /// Takes effect while exactly one body is registered with
     /// [`WearWorld::place`](crate::WearWorld::place): with several, or none, there is no single
@@ -23,7 +27,8 @@ pub struct WearSettings {
 impl Default for WearSettings {
     fn default() -> Self {
         let EncounterSettings { accuracy, ledger, step_limit } = EncounterSettings::default();
-        Self { accuracy, ledger, step_limit, until: Until::Duration }
+        let resolve = Resolve::Auto;
+        Self { accuracy, ledger, step_limit, resolve, until: Until::Duration }
     }
 }
 
@@ -42,7 +47,11 @@ impl WearSettings {
 pub struct Counters {
     /// Body steps resolved by Micro.
     pub micro: u64,
-    /// Body steps left to Rapier near a wear surface, because the gate refused.
+    /// Body steps resolved by QuasiStatic.
+    pub quasi_static: u64,
+    /// Body steps resolved by Lockstep.
+    pub lockstep: u64,
+    /// Body steps left to Rapier near a wear surface, wearing nothing.
     pub refused: u64,
     /// Contact steps of the integrator.
     pub steps: u64,

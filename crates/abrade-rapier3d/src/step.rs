@@ -2,7 +2,7 @@
 
 use abrade::Until;
 use nalgebra::{Isometry3, Vector3};
-use rapier::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
+use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::ColliderSet;
 use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
 
@@ -48,7 +48,7 @@ impl WearWorld {
         world.integration_parameters.dt = scalar::narrow(guard.dt());
         world.step_with_events(&guard, events);
         world.integration_parameters.dt = asked;
-        self.end_step(&mut world.bodies, &mut world.colliders)
+        self.end_step_observed(WorldView::of(world), observer)
     }
 
     /// Chooses, resolves and steers. The guard goes into Rapier's step, which must be by
@@ -83,9 +83,12 @@ impl WearWorld {
                 };
                 self.resolve(self.candidates[at], &world, until, observer);
             }
+            if !self.held.is_empty() {
+                self.before.note(world.bodies, &self.bodies);
+            }
             self.steer(&mut world, &gravity);
             if !self.driven.is_empty() {
-                let colliders = world.colliders;
+                let colliders = &*world.colliders;
                 let pose = |worn: &WornCollider| {
                     colliders.get(worn.proxy).map_or_else(Isometry3::identity, |c| worn.pose(c))
                 };
@@ -93,7 +96,8 @@ impl WearWorld {
                 self.carry_driven(&frames, world.bodies, observer);
             }
         }
-        WearGuard { taken: &self.taken, user: hooks, dt: self.current.dt }
+        let (taken, surfaces) = (&self.taken, &self.surfaces);
+        WearGuard { taken, surfaces, user: hooks, dt: self.current.dt }
     }
 
     /// Sets velocities so that Rapier lands where the integration ended, and takes the pairs.
@@ -106,21 +110,33 @@ impl WearWorld {
         }
     }
 
-    /// Restores what steering changed, after Rapier's step.
+    /// Restores what steering changed, after Rapier's step, and wears what the bodies that it kept
+    /// in hand bore. The view must be of the same world as before.
     ///
     /// # Errors
     /// A contact left the reach of the model in this step; its body was left to Rapier.
-    pub fn end_step(
+    pub fn end_step(&mut self, world: WorldView<'_>) -> Result<StepReport, WearError> {
+        self.end_step_observed(world, &mut ())
+    }
+
+    /// As [`WearWorld::end_step`], showing every contact step to `observer`.
+    ///
+    /// # Errors
+    /// As [`WearWorld::end_step`].
+    pub fn end_step_observed(
         &mut self,
-        bodies: &mut RigidBodySet,
-        colliders: &mut ColliderSet,
+        mut world: WorldView<'_>,
+        observer: &mut dyn WearObserver,
     ) -> Result<StepReport, WearError> {
         for steered in self.steered.drain(..) {
             let body = steered.integrated.body;
             let tracked = Tracked::slot(&mut self.bodies, body);
-            let Some(rb) = bodies.get_mut(body) else { continue };
+            let Some(rb) = world.bodies.get_mut(body) else { continue };
             tracked.shadow = steered.settle(rb);
-            steer::carry_colliders(rb, colliders);
+            steer::carry_colliders(rb, world.colliders);
+        }
+        if !self.held.is_empty() {
+            self.settle_held(&mut world, observer);
         }
         let Current { dt, exited, failure } = std::mem::take(&mut self.current);
         match failure {
@@ -134,6 +150,7 @@ impl WearWorld {
         self.events.clear();
         self.integrated.clear();
         self.steered.clear();
+        self.held.clear();
         for handle in self.candidates.drain(..) {
             Tracked::slot(&mut self.bodies, handle).course = None;
         }

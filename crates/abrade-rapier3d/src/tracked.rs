@@ -1,17 +1,24 @@
 //! What is known of one rigid body from step to step.
 
 use abrade::{Body, Encounter, Ledger, State};
-use nalgebra::{Isometry3, Point3, Vector3};
+use abrade_lockstep::Wearer;
+use nalgebra::{Isometry3, Point3};
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::ColliderSet;
 use rapier::math::Vector;
 
+use crate::booking::{Booking, Contact};
 use crate::derive::{self, Print};
 use crate::event::{Refusal, WearEvent};
 use crate::gate::Lie;
 use crate::path::Extent;
+use crate::quasi_static::Pressing;
+use crate::resolver::Resolver;
 use crate::shadow::{self, Shadow};
-use crate::surface::SurfaceId;
+use crate::surface::{SurfaceId, WornCollider};
+
+/// Periods on its springs for which a contact may be a blow.
+const BLOW: f64 = 20.0;
 
 /// A rigid body and the core's view of it.
 pub(crate) struct Tracked {
@@ -23,6 +30,18 @@ pub(crate) struct Tracked {
     pub radius: f64,
     pub shadow: Option<Shadow>,
     pub live: Option<Live>,
+    /// The contact that is open: totals since it began.
+    pub contact: Option<Contact>,
+    /// Springs kept by Lockstep, and the surfaces they are on.
+    pub wearer: Option<(Vec<SurfaceId>, Wearer)>,
+    /// What QuasiStatic presses it against.
+    pub pressing: Vec<Pressing>,
+    /// Loads that Rapier's contacts with surfaces bore in the last step [N].
+    pub borne: Vec<(SurfaceId, f64)>,
+    /// Friction of Rapier's contacts with surfaces, where it ploughs [-].
+    pub friction: f64,
+    /// How it was last resolved.
+    resolver: Option<Resolver>,
     /// Surfaces that it comes near in the step under way.
     pub near: Vec<SurfaceId>,
     /// Box around its course to the first of them, in the world.
@@ -46,19 +65,6 @@ pub(crate) struct Live {
     pub encounter: Encounter,
     /// The surfaces it was made with, in order.
     pub surfaces: Vec<SurfaceId>,
-    /// The contact that is open: totals since it began.
-    pub contact: Option<Contact>,
-}
-
-/// Totals of a contact.
-#[derive(Default)]
-pub(crate) struct Contact {
-    /// Impulse on the body, in the world [N s].
-    pub impulse: Vector3<f64>,
-    /// Time in contact [s].
-    pub time: f64,
-    /// The surfaces worn since it began, with the volume displaced [m3].
-    pub surfaces: Vec<(SurfaceId, f64)>,
 }
 
 impl Tracked {
@@ -70,6 +76,12 @@ impl Tracked {
             radius: 0.0,
             shadow: None,
             live: None,
+            contact: None,
+            wearer: None,
+            pressing: Vec::new(),
+            borne: Vec::new(),
+            friction: 0.0,
+            resolver: None,
             near: Vec::new(),
             course: None,
             prints: Vec::new(),
@@ -156,9 +168,73 @@ impl Tracked {
 
     /// Ends the running encounter and returns its ledger.
     pub fn end(&mut self, events: &mut Vec<WearEvent>) -> Ledger {
-        let Some(mut live) = self.live.take() else { return Ledger::default() };
-        live.end_contact(self.handle, events);
+        let Some(live) = self.live.take() else { return Ledger::default() };
+        Contact::end(&mut self.contact, self.handle, events);
         *live.encounter.ledger()
+    }
+
+    /// Ends what QuasiStatic presses it against.
+    pub fn let_go(&mut self, surfaces: &mut [WornCollider], lies: &[Lie], closed: &mut Ledger) {
+        for mut pressing in self.pressing.drain(..) {
+            *closed += pressing.end(surfaces, lies);
+        }
+    }
+
+    /// True in the middle of a blow on springs, which may pass the turning point, where it is slow.
+    pub fn is_in_blow(&self) -> bool {
+        let Some(live) = self.live.as_ref().filter(|live| live.encounter.in_contact()) else {
+            return false;
+        };
+        let time = self.contact.as_ref().map_or(0.0, |contact| contact.time);
+        time < BLOW * live.encounter.period()
+    }
+
+    /// Micro has carried it: what the others kept is let go.
+    pub fn taken_by_micro(
+        &mut self,
+        surfaces: &mut [WornCollider],
+        lies: &[Lie],
+        closed: &mut Ledger,
+        events: &mut Vec<WearEvent>,
+    ) {
+        self.let_go(surfaces, lies, closed);
+        self.wearer = None;
+        self.borne.clear();
+        self.friction = 0.0;
+        self.hand_to(Resolver::Micro, None, events);
+    }
+
+    /// Books a step of its contact.
+    pub fn book(
+        &mut self,
+        booking: &Booking,
+        worn: &[(SurfaceId, f64)],
+        events: &mut Vec<WearEvent>,
+    ) {
+        Contact::book(&mut self.contact, self.handle, booking, worn, events);
+    }
+
+    /// Notes who resolves it now; a change raises an event.
+    pub fn hand_to(&mut self, to: Resolver, reason: Option<Refusal>, events: &mut Vec<WearEvent>) {
+        // That Micro begins is what an embedder expects.
+        let before = self.resolver.replace(to).unwrap_or(Resolver::Micro);
+        if before != to {
+            events.push(WearEvent::Resolved { body: self.handle, by: to, reason });
+        }
+    }
+
+    /// The core's body, once derived.
+    pub fn body(&self) -> Option<&Body> {
+        match &self.known {
+            Known::Ready(body) => Some(body),
+            Known::Unseen | Known::Refused(_) => None,
+        }
+    }
+
+    /// The entry of `handle` among all.
+    pub fn find(bodies: &[Option<Self>], handle: RigidBodyHandle) -> Option<&Self> {
+        let slot = bodies.get(handle.into_raw_parts().0 as usize)?.as_ref();
+        slot.filter(|tracked| tracked.handle == handle)
     }
 
     /// State in the world, exact where known.

@@ -3,11 +3,12 @@
 use rapier::dynamics::{
     ImpulseJointSet, IntegrationParameters, MultibodyJointSet, RigidBodyHandle, RigidBodySet,
 };
-use rapier::geometry::ColliderSet;
+use rapier::geometry::{ColliderSet, NarrowPhase};
 use rapier::math::Vector;
 use rapier::pipeline::PhysicsWorld;
 
-/// Borrowed parts of a physics world, for [`WearWorld::begin_step`](crate::WearWorld::begin_step).
+/// Borrowed parts of a physics world, for [`WearWorld::begin_step`](crate::WearWorld::begin_step)
+/// and [`WearWorld::end_step`](crate::WearWorld::end_step).
 pub struct WorldView<'a> {
     /// Acceleration of gravity [m/s2].
     pub gravity: Vector,
@@ -15,12 +16,14 @@ pub struct WorldView<'a> {
     pub parameters: &'a IntegrationParameters,
     /// The bodies; velocities of resolved ones are set.
     pub bodies: &'a mut RigidBodySet,
-    /// The colliders.
-    pub colliders: &'a ColliderSet,
+    /// The colliders; those of bodies that were moved follow.
+    pub colliders: &'a mut ColliderSet,
     /// The joints.
     pub impulse_joints: &'a ImpulseJointSet,
     /// The articulations.
     pub multibody_joints: &'a MultibodyJointSet,
+    /// The contacts of the last step.
+    pub narrow_phase: &'a NarrowPhase,
 }
 
 impl<'a> WorldView<'a> {
@@ -30,9 +33,10 @@ impl<'a> WorldView<'a> {
             gravity: world.gravity,
             parameters: &world.integration_parameters,
             bodies: &mut world.bodies,
-            colliders: &world.colliders,
+            colliders: &mut world.colliders,
             impulse_joints: &world.impulse_joints,
             multibody_joints: &world.multibody_joints,
+            narrow_phase: &world.narrow_phase,
         }
     }
 

@@ -13,6 +13,7 @@ use crate::error::WearError;
 use crate::event::WearEvent;
 use crate::gate::Lie;
 use crate::guard::Taken;
+use crate::held::{Before, Held};
 use crate::obstacle::Obstacles;
 use crate::settings::{Counters, WearSettings};
 use crate::shadow;
@@ -37,6 +38,10 @@ pub struct WearWorld {
     /// Bodies carried through this step.
     pub(crate) integrated: Vec<Integrated>,
     pub(crate) steered: Vec<Steered>,
+    /// Bodies that Rapier keeps in hand through this step.
+    pub(crate) held: Vec<Held>,
+    /// States before this step, if any body is held.
+    pub(crate) before: Before,
     pub(crate) driven: Vec<DrivenBody>,
     pub(crate) events: Vec<WearEvent>,
     pub(crate) counters: Counters,
@@ -118,8 +123,7 @@ impl WearWorld {
     }
 
     fn tracked(&self, handle: RigidBodyHandle) -> Option<&Tracked> {
-        let slot = self.bodies.get(handle.into_raw_parts().0 as usize)?.as_ref();
-        slot.filter(|tracked| tracked.handle == handle)
+        Tracked::find(&self.bodies, handle)
     }
 
     /// The surfaces, in the order of insertion.
@@ -135,8 +139,9 @@ impl WearWorld {
     /// The energies of all contacts so far [J]; zeros unless asked for.
     pub fn ledger(&self) -> Ledger {
         let mut sum = self.closed;
-        for live in self.bodies.iter().flatten().filter_map(|tracked| tracked.live.as_ref()) {
-            sum += *live.encounter.ledger();
+        for tracked in self.bodies.iter().flatten() {
+            tracked.live.iter().for_each(|live| sum += *live.encounter.ledger());
+            tracked.pressing.iter().for_each(|pressing| sum += *pressing.ledger());
         }
         self.driven.iter().for_each(|driven| sum += *driven.ledger());
         sum

@@ -82,13 +82,7 @@ impl Carried {
 
     /// Largest overlap of a node with the body [m], surface by surface.
     pub fn overlaps(&mut self, body: &Body, surfaces: &[Placed<'_>]) -> Vec<f64> {
-        let pairs = self.integrator.contacts.iter_mut().zip(surfaces);
-        let overlap = |(contact, placed): (&mut Contact, &Placed<'_>)| {
-            let local = body.state.seen_from(&placed.pose);
-            contact.cover(placed.surface, &body.shape, &local, 0.0);
-            contact.deepest(placed.surface, &body.shape, &local)
-        };
-        pairs.map(overlap).collect()
+        self.integrator.overlaps(body, surfaces).collect()
     }
 
     /// Length of the next step [s]: in contact a share of the period on the springs; out of it

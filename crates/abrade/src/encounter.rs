@@ -144,6 +144,16 @@ impl Encounter {
         self.integrator.in_contact()
     }
 
+    /// Largest overlap of a node with `body` [m].
+    pub fn overlap(&mut self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
+        self.integrator.overlaps(body, surfaces).fold(0.0, f64::max)
+    }
+
+    /// Period of the body on the springs that it touches [s]; zero before any contact.
+    pub fn period(&self) -> f64 {
+        std::f64::consts::TAU * self.integrator.next_dt / self.integrator.eta
+    }
+
     /// The energies since the encounter began; zeros unless asked for.
     pub fn ledger(&self) -> &Ledger {
         self.integrator.ledger()

@@ -300,15 +300,24 @@ impl Integrator {
 
     /// The body must not lie inside a surface before it has touched it.
     fn start_clear(&mut self, body: &Body, surfaces: &[Placed<'_>]) -> Result<(), PhysicsError> {
-        for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
+        let depth = self.overlaps(body, surfaces).fold(0.0, f64::max);
+        match depth > INSIDE * body.shape.bounding_radius() {
+            true => Err(PhysicsError::StartsInside { depth }),
+            false => Ok(()),
+        }
+    }
+
+    /// Largest overlap of a node with the body [m], surface by surface.
+    pub(crate) fn overlaps<'a>(
+        &'a mut self,
+        body: &'a Body,
+        surfaces: &'a [Placed<'_>],
+    ) -> impl Iterator<Item = f64> + 'a {
+        self.contacts.iter_mut().zip(surfaces).map(|(contact, placed)| {
             let local = body.state.seen_from(&placed.pose);
             contact.cover(placed.surface, &body.shape, &local, 0.0);
-            let depth = contact.deepest(placed.surface, &body.shape, &local);
-            if depth > INSIDE * body.shape.bounding_radius() {
-                return Err(PhysicsError::StartsInside { depth });
-            }
-        }
-        Ok(())
+            contact.deepest(placed.surface, &body.shape, &local)
+        })
     }
 
     /// True for a body out of contact and wholly above every undeformed surface.

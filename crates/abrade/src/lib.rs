@@ -37,6 +37,7 @@ mod projection;
 pub mod quantity;
 mod query;
 mod rotation;
+mod sag;
 mod shape;
 mod surface;
 mod sweep;

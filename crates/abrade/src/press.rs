@@ -136,7 +136,7 @@ impl Pressed {
             return Ok(done);
         };
         if !self.integrator.touched {
-            self.lift(body, placed, down, hold.increment);
+            self.lift(body, placed, down);
         }
         let way = end.position - body.state.position;
         let way = way - down * down.dot(&way);
@@ -173,14 +173,9 @@ impl Pressed {
     }
 
     /// Lifts a body that an engine left inside the surfaces until it is clear of them.
-    fn lift(&mut self, body: &mut Body, placed: &[Placed<'_>], down: Vector3<f64>, step: f64) {
+    fn lift(&mut self, body: &mut Body, placed: &[Placed<'_>], down: Vector3<f64>) {
         for _ in 0..LIFTS {
-            let mut deepest = 0.0f64;
-            for (contact, placed) in self.integrator.contacts.iter_mut().zip(placed) {
-                let local = body.state.seen_from(&placed.pose);
-                contact.cover(placed.surface, &body.shape, &local, step);
-                deepest = deepest.max(contact.deepest(placed.surface, &body.shape, &local));
-            }
+            let deepest = self.integrator.overlaps(body, placed).fold(0.0, f64::max);
             if deepest == 0.0 {
                 break;
             }

@@ -3,7 +3,7 @@
 use super::rig::{GAP, RADIUS, Rig, towards_plate};
 use crate::plugin::rapier::math::{Pose, Vector};
 use crate::plugin::rapier::prelude::*;
-use crate::plugin::{Refusal, WearEvent, scalar};
+use crate::plugin::{Refusal, Resolve, WearEvent, scalar};
 use nalgebra::Vector3;
 
 fn refusals(rig: &Rig) -> Vec<Refusal> {
@@ -34,7 +34,7 @@ fn rapier_gives_no_impulse_to_a_pair_that_wear_resolves() {
 /// Fails for a gate that overlooks joints, or that takes Rapier's contact away from the refused.
 #[test]
 fn a_jointed_body_keeps_rapiers_contact_and_says_so() {
-    let mut rig = Rig::new(Vector3::zeros(), 1.0 / 60.0);
+    let mut rig = Rig::resolved_by(Resolve::Micro, Vector3::zeros(), 1.0 / 60.0);
     rig.world.integration_parameters.length_unit = scalar::narrow(0.01);
     let v = towards_plate(0.05, 90.0);
     let one = rig.ball(Vector3::new(0.0, 0.0, 0.0035), v);
@@ -56,7 +56,7 @@ fn a_jointed_body_keeps_rapiers_contact_and_says_so() {
 /// Fails for a gate that looks at the present alone, or at Rapier's narrow phase.
 #[test]
 fn a_body_with_something_in_its_way_is_refused() {
-    let mut rig = Rig::new(Vector3::zeros(), 1.0 / 60.0);
+    let mut rig = Rig::resolved_by(Resolve::Micro, Vector3::zeros(), 1.0 / 60.0);
     let ball = rig.ball(Vector3::z() * (RADIUS + GAP), towards_plate(0.3, 10.0));
     let h = scalar::narrow(1e-3);
     let wall = ColliderBuilder::cuboid(h, h, h * 10.0);
@@ -107,7 +107,7 @@ fn a_rebound_stops_short_of_a_ceiling() {
 /// Fails for a gate that resolves what the model lacks, or that fails instead of refusing.
 #[test]
 fn shapes_and_locks_without_a_model_are_refused() {
-    let mut rig = Rig::new(Vector3::zeros(), 1.0 / 60.0);
+    let mut rig = Rig::resolved_by(Resolve::Micro, Vector3::zeros(), 1.0 / 60.0);
     let r = scalar::narrow(RADIUS);
     let above = scalar::to_vector(&(Vector3::z() * 2.0 * RADIUS));
     let body = || RigidBodyBuilder::dynamic().translation(above);

@@ -83,8 +83,7 @@ fn a_step_in_three_parts_is_the_step_in_one() {
             }
             let guard = rig.wear.begin_step(WorldView::of(&mut rig.world), &());
             rig.world.step_with_events(&guard, &());
-            let (bodies, colliders) = (&mut rig.world.bodies, &mut rig.world.colliders);
-            rig.wear.end_step(bodies, colliders).expect("a step");
+            rig.wear.end_step(WorldView::of(&mut rig.world)).expect("a step");
         }
         (*rig.world.bodies[ball].position(), rig.wear[rig.plate].wear_volume())
     };

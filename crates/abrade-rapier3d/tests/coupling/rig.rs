@@ -7,7 +7,7 @@ use crate::plugin::abrade::{
 };
 use crate::plugin::rapier::math::Vector;
 use crate::plugin::rapier::prelude::*;
-use crate::plugin::{SurfaceId, WearSettings, WearWorld, scalar};
+use crate::plugin::{Resolve, SurfaceId, WearSettings, WearWorld, scalar};
 use nalgebra::{Isometry3, Point3, Vector3};
 
 /// Radius of the ball [m].
@@ -48,13 +48,19 @@ pub fn surface() -> Surface {
 impl Rig {
     /// A plate whose top is at `origin`, no gravity, steps of `dt` [s].
     pub fn new(origin: Vector3<f64>, dt: f64) -> Self {
+        Self::resolved_by(Resolve::Auto, origin, dt)
+    }
+
+    /// The same, with the given resolvers.
+    pub fn resolved_by(resolve: Resolve, origin: Vector3<f64>, dt: f64) -> Self {
         let mut world = PhysicsWorld { gravity: Vector::ZERO, ..PhysicsWorld::default() };
         world.integration_parameters.dt = scalar::narrow(dt);
         let h = scalar::narrow(HALF_THICKNESS);
         let below = scalar::to_vector(&(origin - Vector3::z() * HALF_THICKNESS));
         let cuboid = ColliderBuilder::cuboid(scalar::narrow(15e-3), scalar::narrow(6e-3), h);
         let proxy = world.colliders.insert(cuboid.translation(below));
-        let mut wear = WearWorld::new(WearSettings { ledger: true, ..WearSettings::default() });
+        let mut wear =
+            WearWorld::new(WearSettings { ledger: true, resolve, ..WearSettings::default() });
         let plate = wear.insert_on_top(surface(), proxy, &mut world.colliders).expect("a proxy");
         Self { world, wear, plate, proxy }
     }

@@ -1,0 +1,5 @@
+//! Every contact, at every step, in f64.
+
+use abrade_rapier3d_f64 as plugin;
+
+mod contacts;

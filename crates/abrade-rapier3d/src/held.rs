@@ -1,0 +1,67 @@
+//! Bodies near a wear surface that Rapier keeps in hand through a step, because the gate refused
+//! them; what they bore is seen after it.
+
+use abrade::State;
+use nalgebra::Vector3;
+use rapier::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
+use rapier::geometry::{ColliderHandle, NarrowPhase};
+
+use crate::event::Refusal;
+use crate::scalar;
+use crate::shadow;
+use crate::surface::{SurfaceId, WornCollider};
+use crate::tracked::Tracked;
+
+/// A body that Rapier keeps in hand.
+pub(crate) struct Held {
+    pub body: RigidBodyHandle,
+    /// The surfaces that it is near.
+    pub surfaces: Vec<SurfaceId>,
+    /// Why Micro did not take it.
+    pub reason: Refusal,
+    /// It will strike a surface, or was seen to strike one.
+    pub strikes: bool,
+    /// Speed below which an approach is rest [m/s].
+    pub rest_speed: f64,
+}
+
+/// States before the step, in the order of the handles.
+#[derive(Default)]
+pub(crate) struct Before {
+    states: Vec<(RigidBodyHandle, State)>,
+}
+
+impl Before {
+    /// Takes note of every body that moves, exactly where that is known.
+    pub fn note(&mut self, bodies: &RigidBodySet, tracked: &[Option<Tracked>]) {
+        self.states.clear();
+        let exact = |handle: RigidBodyHandle, rb: &RigidBody| {
+            let slot = tracked.get(handle.into_raw_parts().0 as usize).and_then(Option::as_ref);
+            let shadow = slot.filter(|t| t.handle == handle).and_then(|t| t.shadow.as_ref());
+            shadow::read(rb, shadow, &nalgebra::Isometry3::identity())
+        };
+        let moving = bodies.iter().filter(|(_, rb)| !rb.is_fixed());
+        self.states.extend(moving.map(|(handle, rb)| (handle, exact(handle, rb))));
+    }
+
+    /// State of a body before the step.
+    pub fn of(&self, body: RigidBodyHandle) -> Option<&State> {
+        let key = body.into_raw_parts().0;
+        let at = self.states.binary_search_by_key(&key, |(h, _)| h.into_raw_parts().0).ok()?;
+        Some(&self.states[at].1).filter(|_| self.states[at].0 == body)
+    }
+}
+
+/// Impulse that Rapier's contacts with a proxy gave a body in the last step [N s], in the world.
+pub(crate) fn impulse(
+    colliders: &[ColliderHandle],
+    worn: &WornCollider,
+    narrow_phase: &NarrowPhase,
+) -> Vector3<f64> {
+    let on_body = |own: ColliderHandle| {
+        let pair = narrow_phase.contact_pair(worn.proxy, own)?;
+        let sign = if pair.collider1 == worn.proxy { 1.0 } else { -1.0 };
+        Some(scalar::vector(pair.total_impulse()) * sign)
+    };
+    colliders.iter().filter_map(|own| on_body(*own)).sum()
+}

@@ -1,0 +1,159 @@
+//! The private world of an island: bodies as they were before the step, colliders, joints.
+
+use std::collections::BTreeMap;
+
+use abrade::State;
+use abrade_lockstep::rapier as fine;
+use abrade_lockstep::{to_pose, to_vector};
+use fine::dynamics::{LockedAxes, MassProperties, RigidBodyBuilder};
+use fine::math::Matrix;
+use fine::pipeline::PhysicsWorld;
+use nalgebra::{Isometry3, Translation3, Vector3};
+use rapier::dynamics::{RigidBody, RigidBodyHandle};
+use rapier::geometry::{Collider, ColliderHandle};
+use rapier::math::Pose;
+
+use crate::event::Refusal;
+use crate::held::Before;
+use crate::lockstep::members::Members;
+use crate::lockstep::widen;
+use crate::scalar;
+use crate::tracked::Tracked;
+use crate::view::WorldView;
+
+/// The private world, and what stands there for what.
+pub(crate) struct Copy {
+    pub world: PhysicsWorld,
+    pub bodies: BTreeMap<(u32, u32), fine::dynamics::RigidBodyHandle>,
+    pub standing: BTreeMap<(u32, u32), fine::geometry::ColliderHandle>,
+}
+
+/// Copies the members as they were before the step.
+pub(crate) fn copy(
+    members: &Members,
+    world: &WorldView<'_>,
+    before: &Before,
+    tracked: &[Option<Tracked>],
+) -> Result<Copy, Refusal> {
+    let mut inner = PhysicsWorld {
+        gravity: to_vector(&scalar::vector(world.gravity)),
+        ..PhysicsWorld::default()
+    };
+    inner.integration_parameters.length_unit = scalar::wide(world.parameters.length_unit);
+    let mut copy = Copy { world: inner, bodies: BTreeMap::new(), standing: BTreeMap::new() };
+    for &handle in &members.bodies {
+        let (Some(rb), Some(state)) = (world.bodies.get(handle), before.of(handle)) else {
+            continue;
+        };
+        copy.add_body(handle, rb, state, tracked, world)?;
+    }
+    for &handle in &members.standing {
+        let Some(collider) = world.colliders.get(handle) else { continue };
+        copy.add_standing(handle, collider)?;
+    }
+    copy.add_joints(world)?;
+    Ok(copy)
+}
+
+impl Copy {
+    fn add_body(
+        &mut self,
+        handle: RigidBodyHandle,
+        rb: &RigidBody,
+        state: &State,
+        tracked: &[Option<Tracked>],
+        world: &WorldView<'_>,
+    ) -> Result<(), Refusal> {
+        let n = scalar::wide;
+        let com = scalar::vector(rb.local_center_of_mass());
+        let origin = Translation3::from(state.position.coords - state.rotation * com);
+        let pose = to_pose(&Isometry3::from_parts(origin, state.rotation));
+        let builder = match rb.is_dynamic() {
+            true => RigidBodyBuilder::dynamic(),
+            false => RigidBodyBuilder::kinematic_velocity_based(),
+        };
+        let locked = LockedAxes::from_bits_truncate(rb.locked_axes().bits());
+        let builder = builder
+            .pose(pose)
+            .linvel(to_vector(&state.velocity))
+            .angvel(to_vector(&state.spin))
+            .gravity_scale(n(rb.gravity_scale()))
+            .linear_damping(n(rb.linear_damping()))
+            .angular_damping(n(rb.angular_damping()))
+            .dominance_group(rb.dominance_group())
+            .gyroscopic_forces_enabled(rb.gyroscopic_forces_enabled())
+            .locked_axes(locked)
+            .additional_mass_properties(mass(rb, &com, Tracked::find(tracked, handle)))
+            .allow_fast_rotation(true)
+            .can_sleep(false);
+        let inner = self.world.insert_body(builder);
+        self.bodies.insert(handle.into_raw_parts(), inner);
+        for &own in rb.colliders() {
+            let Some(collider) = world.colliders.get(own).filter(|c| is_solid(c)) else { continue };
+            let place = collider.position_wrt_parent().copied().unwrap_or(Pose::IDENTITY);
+            let copied = widen::collider(collider, &place);
+            let copied = copied.ok_or(Refusal::Shape { collider: own })?;
+            self.world.insert_collider(copied, Some(inner));
+        }
+        let Some(inner) = self.world.bodies.get_mut(inner) else { return Ok(()) };
+        inner.add_force(to_vector(&scalar::vector(rb.user_force())), true);
+        inner.add_torque(to_vector(&scalar::vector(rb.user_torque())), true);
+        Ok(())
+    }
+
+    fn add_standing(&mut self, handle: ColliderHandle, collider: &Collider) -> Result<(), Refusal> {
+        let copied = widen::collider(collider, collider.position());
+        let copied = copied.ok_or(Refusal::Shape { collider: handle })?;
+        let inner = self.world.insert_collider(copied, None);
+        self.standing.insert(handle.into_raw_parts(), inner);
+        Ok(())
+    }
+
+    /// Copies the joints of the members, among each other and to what stands.
+    fn add_joints(&mut self, world: &WorldView<'_>) -> Result<(), Refusal> {
+        let mut anchors = BTreeMap::new();
+        for (_, joint) in world.impulse_joints.iter().filter(|(_, j)| j.data.is_enabled()) {
+            let ends = [joint.body1(), joint.body2()];
+            let is_member =
+                |body: &RigidBodyHandle| self.bodies.contains_key(&body.into_raw_parts());
+            if !ends.iter().any(is_member) {
+                continue;
+            }
+            let [first, second] = ends.map(|body| {
+                let key = body.into_raw_parts();
+                let known = self.bodies.get(&key).or_else(|| anchors.get(&key)).copied();
+                known.unwrap_or_else(|| {
+                    let place = world.bodies.get(body).map(|rb| widen::pose(rb.position()));
+                    let fixed = RigidBodyBuilder::fixed().pose(place.unwrap_or_default());
+                    let inner = self.world.insert_body(fixed);
+                    anchors.insert(key, inner);
+                    inner
+                })
+            });
+            self.world.insert_impulse_joint(first, second, widen::joint(&joint.data));
+        }
+        Ok(())
+    }
+}
+
+fn is_solid(collider: &Collider) -> bool {
+    collider.is_enabled() && !collider.is_sensor()
+}
+
+/// Mass properties of a body with the centre of mass `com` in its frame: the embedder's where it
+/// registered any, else Rapier's.
+fn mass(rb: &RigidBody, com: &Vector3<f64>, tracked: Option<&Tracked>) -> MassProperties {
+    let local = &rb.mass_properties().local_mprops;
+    let (mass, tensor) = match tracked.filter(|t| t.registered).and_then(Tracked::body) {
+        Some(body) => (body.inertia.mass, body.inertia.tensor),
+        None => {
+            let tensor = scalar::matrix(&local.reconstruct_inertia_matrix());
+            (scalar::wide(local.mass()), tensor)
+        }
+    };
+    let mut matrix = Matrix::ZERO;
+    for (to, column) in tensor.column_iter().enumerate() {
+        *matrix.col_mut(to) = to_vector(&column.into_owned());
+    }
+    MassProperties::with_inertia_matrix(to_vector(com), mass, matrix)
+}

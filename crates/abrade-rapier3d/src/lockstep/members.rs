@@ -1,0 +1,87 @@
+//! Who belongs to an island: everything that is jointed to a member, or could meet
+//! one in the step.
+
+use rapier::dynamics::RigidBodyHandle;
+use rapier::geometry::ColliderHandle;
+
+use crate::event::Refusal;
+use crate::obstacle::Obstacles;
+use crate::view::WorldView;
+
+/// Most bodies of an island: a step of it costs about 2 us and 1 us a body.
+const LIMIT: usize = 64;
+
+/// The bodies and the standing colliders of an island.
+pub(crate) struct Members {
+    pub bodies: Vec<RigidBodyHandle>,
+    /// Colliders of members do not count.
+    pub standing: Vec<ColliderHandle>,
+}
+
+/// The island around `start`.
+pub(crate) fn gather(
+    start: RigidBodyHandle,
+    world: &WorldView<'_>,
+    obstacles: &Obstacles,
+) -> Result<Members, Refusal> {
+    let mut members = Members { bodies: vec![start], standing: Vec::new() };
+    let mut at = 0;
+    while at < members.bodies.len() {
+        let body = members.bodies[at];
+        at += 1;
+        if world.multibody_joints.rigid_body_link(body).is_some() {
+            return Err(Refusal::Multibody);
+        }
+        for (first, second, _, _) in world.impulse_joints.attached_enabled_joints(body) {
+            members.add_body(if first == body { second } else { first }, world);
+        }
+        obstacles.show_near(body, world.colliders, |collider, other| {
+            members.add_met(collider, other, world);
+        });
+        if members.bodies.len() > LIMIT {
+            return Err(Refusal::Crowd { limit: LIMIT });
+        }
+    }
+    members.bodies.sort_unstable_by_key(|body| body.into_raw_parts());
+    members.standing.sort_unstable_by_key(|collider| collider.into_raw_parts());
+    Ok(members)
+}
+
+impl Members {
+    pub fn holds(&self, body: RigidBodyHandle) -> bool {
+        let key = body.into_raw_parts();
+        self.bodies.binary_search_by_key(&key, |member| member.into_raw_parts()).is_ok()
+    }
+
+    /// Adds a collider that stands.
+    pub fn add_standing(&mut self, collider: ColliderHandle) {
+        let key = collider.into_raw_parts();
+        if let Err(at) = self.standing.binary_search_by_key(&key, |c| c.into_raw_parts()) {
+            self.standing.insert(at, collider);
+        }
+    }
+
+    fn add_body(&mut self, body: RigidBodyHandle, world: &WorldView<'_>) {
+        let moves = world.bodies.get(body).is_some_and(|rb| rb.is_enabled() && !rb.is_fixed());
+        if moves && !self.bodies.contains(&body) {
+            self.bodies.push(body);
+        }
+    }
+
+    /// Adds what a collider belongs to. Kinematic bodies pass nothing on.
+    fn add_met(
+        &mut self,
+        collider: ColliderHandle,
+        body: Option<RigidBodyHandle>,
+        world: &WorldView<'_>,
+    ) {
+        let dynamic = |body: &RigidBodyHandle| {
+            world.bodies.get(*body).is_some_and(|rb| rb.is_dynamic() && rb.is_enabled())
+        };
+        match body.filter(dynamic) {
+            Some(body) => self.add_body(body, world),
+            None if !self.standing.contains(&collider) => self.standing.push(collider),
+            None => {}
+        }
+    }
+}

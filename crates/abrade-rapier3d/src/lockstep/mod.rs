@@ -1,0 +1,156 @@
+//! The Lockstep resolver: a body with its island, copied as it was before the step into a private
+//! world in `f64`, stepped finely through the same time, and handed back over what Rapier made of
+//! it.
+
+#![allow(unused_qualifications, reason = "in the f64 package the two engines are one")]
+
+mod copy;
+mod members;
+mod widen;
+
+use std::collections::BTreeMap;
+
+use abrade::{Body, PhysicsError};
+use abrade_lockstep::rapier as fine;
+use abrade_lockstep::{Done, Island, IslandSettings, Wearer};
+use nalgebra::{Isometry3, Vector3};
+use rapier::dynamics::RigidBodyHandle;
+use rapier::geometry::ColliderHandle;
+
+use crate::event::Refusal;
+use crate::held::Held;
+use crate::lockstep::copy::copy;
+use crate::lockstep::members::Members;
+pub(crate) use crate::lockstep::members::gather;
+use crate::micro::place;
+use crate::surface::SurfaceId;
+use crate::tracked::Tracked;
+use crate::view::WorldView;
+use crate::world::WearWorld;
+use crate::{gate, scalar, shadow, steer};
+
+/// Why an island was not resolved.
+pub(crate) enum Lost {
+    Refused(Refusal),
+    Failed(RigidBodyHandle, PhysicsError),
+}
+
+impl From<Refusal> for Lost {
+    fn from(refusal: Refusal) -> Self {
+        Self::Refused(refusal)
+    }
+}
+
+/// What an island's step did to one of its wearing bodies.
+pub(crate) struct Share {
+    pub body: RigidBodyHandle,
+    /// Impulse of the surfaces on it [N s], in the world.
+    pub impulse: Vector3<f64>,
+    pub contact_time: f64,
+    pub touches: bool,
+    /// Volume displaced on each surface [m3].
+    pub worn: Vec<(SurfaceId, f64)>,
+}
+
+/// The surfaces of an island, in the order of their names.
+fn surfaces_of(held: &[&Held]) -> Vec<SurfaceId> {
+    let mut ids: Vec<SurfaceId> = held.iter().flat_map(|h| h.surfaces.iter().copied()).collect();
+    ids.sort_unstable();
+    ids.dedup();
+    ids
+}
+
+impl WearWorld {
+    /// Takes an island through the step, those of its members that are `held` wearing.
+    pub(crate) fn lockstep(
+        &mut self,
+        mut members: Members,
+        held: &[Held],
+        world: &mut WorldView<'_>,
+        rest_speed: f64,
+    ) -> Result<(Vec<Share>, Done), Lost> {
+        let held: Vec<&Held> = held.iter().filter(|h| members.holds(h.body)).collect();
+        let ids = surfaces_of(&held);
+        let proxies: Vec<ColliderHandle> = ids.iter().map(|id| self.surfaces[id.0].proxy).collect();
+        proxies.iter().for_each(|proxy| members.add_standing(*proxy));
+        let copy = copy(&members, world, &self.before, &self.bodies)?;
+        let settings = self.settings.encounter();
+        let identity = Isometry3::identity();
+        let mut placed = place(&mut self.surfaces, &ids, &self.lies, &identity);
+        let mut wearers = Vec::new();
+        for held in &held {
+            let tracked = Tracked::slot(&mut self.bodies, held.body);
+            let inner = copy.bodies.get(&held.body.into_raw_parts());
+            let (Some(inner), Some(rb)) = (inner, world.bodies.get(held.body)) else { continue };
+            let (Some(state), Some(body)) = (self.before.of(held.body), tracked.body()) else {
+                continue;
+            };
+            let body = Body { state: *state, ..body.clone() };
+            let loads = gate::loads(rb, &scalar::vector(world.gravity), &identity);
+            let known = tracked.wearer.take().filter(|(known, wearer)| {
+                *known == ids && wearer.body.state == body.state && !wearer.rests()
+            });
+            let wearer = match known {
+                Some((_, wearer)) => wearer.resumed(*inner, loads),
+                None => Wearer::new(*inner, body, loads, &placed, settings)
+                    .map_err(|error| Lost::Failed(held.body, error))?,
+            };
+            wearers.push(wearer);
+        }
+        let inner = |proxy: &ColliderHandle| copy.standing.get(&proxy.into_raw_parts()).copied();
+        let proxies = proxies.iter().filter_map(inner).collect();
+        let settings = IslandSettings { step_limit: self.settings.step_limit, rest_speed };
+        let mut island = Island::new(copy.world, wearers, proxies, settings);
+        let dt = self.current.dt;
+        let done = island
+            .advance(&mut placed, dt, &mut |_, _, _| ())
+            .map_err(|error| Lost::Failed(held[0].body, error))?;
+        hand_back(&island, &copy.bodies, &members, world);
+        Ok((self.settle_island(island, &held, &ids, world), done))
+    }
+
+    /// Books what the island did to its wearing bodies, and keeps their springs.
+    fn settle_island(
+        &mut self,
+        island: Island,
+        held: &[&Held],
+        ids: &[SurfaceId],
+        world: &mut WorldView<'_>,
+    ) -> Vec<Share> {
+        let mut shares = Vec::new();
+        for (wearer, held) in island.into_wearers().into_iter().zip(held) {
+            let tracked = Tracked::slot(&mut self.bodies, held.body);
+            if let Some(rb) = world.bodies.get_mut(held.body) {
+                let state = wearer.body.state;
+                tracked.shadow = Some(shadow::write(rb, Isometry3::identity(), state));
+            }
+            self.closed += wearer.ledger_gained();
+            shares.push(Share {
+                body: held.body,
+                impulse: wearer.impulse(),
+                contact_time: wearer.contact_time(),
+                touches: wearer.contact().in_contact() || wearer.rests(),
+                worn: ids.iter().copied().zip(wearer.worn().iter().copied()).collect(),
+            });
+            tracked.wearer = Some((ids.to_vec(), wearer));
+        }
+        shares
+    }
+}
+
+/// Writes the members' states over what Rapier made of them.
+fn hand_back(
+    island: &Island,
+    inner: &BTreeMap<(u32, u32), fine::dynamics::RigidBodyHandle>,
+    members: &Members,
+    world: &mut WorldView<'_>,
+) {
+    for &body in &members.bodies {
+        let state = inner.get(&body.into_raw_parts()).and_then(|inner| island.state(*inner));
+        let (Some(rb), Some(state)) = (world.bodies.get_mut(body), state) else { continue };
+        if rb.is_dynamic() {
+            shadow::write(rb, Isometry3::identity(), state);
+            steer::carry_colliders(rb, world.colliders);
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! The QuasiStatic resolver: Rapier has kept the contact through the step; the nodes under the
+//! body sink until they carry the load that Rapier measured, along the way that the body went.
+//!
+//! Rapier's penetration never enters: the body's height is the one at which the load balances.
+
+use abrade::{Advance, Body, Hold, PhysicsError, Pressed, State, SurfaceLaws};
+use nalgebra::{Isometry3, Vector3};
+use rapier::dynamics::RigidBodyHandle;
+
+use crate::gate::Lie;
+use crate::micro::place;
+use crate::observer::{Relay, WearObserver};
+use crate::path::Extent;
+use crate::surface::{SurfaceId, WornCollider};
+
+/// Balances of the load per pitch of the way.
+const SAMPLES: f64 = 4.0;
+/// Most balances of a step: beyond it the way is sampled more coarsely.
+const LIMIT: u64 = 4000;
+/// Share of a pitch below which a way is none, and of a load below which it has not grown.
+const STILL: f64 = 1e-6;
+
+/// A body pressed against one surface.
+pub(crate) struct Pressing {
+    pub surface: SurfaceId,
+    pressed: Pressed,
+    /// State in the surface's frame, at the height at which the load is balanced.
+    body: Body,
+    /// Largest load so far [N].
+    load: f64,
+}
+
+/// What a step pressed into a surface.
+pub(crate) struct Pressed_ {
+    pub advance: Advance,
+    /// Friction that Rapier's contact should have [-].
+    pub friction: f64,
+}
+
+/// True when no node can flow under `load` [N]: none bears more than all of it, and the least
+/// that moves a node is its rest area times the smaller hardness.
+pub(crate) fn holds(laws: &SurfaceLaws, area: f64, load: f64) -> bool {
+    let material = &laws.material;
+    let hardness = material.hardness * material.shear_ratio.min(1.0);
+    load * 1f64.hypot(material.friction) < hardness * area
+}
+
+impl Pressing {
+    pub fn new(
+        body: &Body,
+        state: State,
+        surface: SurfaceId,
+        worn: &WornCollider,
+        settings: abrade::EncounterSettings,
+    ) -> Result<Self, PhysicsError> {
+        let body = Body { state, ..body.clone() };
+        let pressed = Pressed::new(&body, [&worn.surface], settings)?;
+        Ok(Self { surface, pressed, body, load: 0.0 })
+    }
+
+    /// Moves on to `end`, in the surface's frame, pressed down by `load` [N].
+    pub fn advance(
+        &mut self,
+        handle: RigidBodyHandle,
+        surfaces: &mut [WornCollider],
+        lies: &[Lie],
+        end: &State,
+        load: f64,
+        dt: f64,
+        observer: &mut dyn WearObserver,
+    ) -> Result<Option<Pressed_>, PhysicsError> {
+        let pitch = surfaces[self.surface.0].surface.pitch();
+        let way = end.position - self.body.state.position;
+        let turn = self.body.state.rotation.angle_to(&end.rotation);
+        let way = way.xy().norm() + turn * self.body.shape.bounding_radius();
+        if way < STILL * pitch && load < (1.0 + STILL) * self.load {
+            return Ok(None);
+        }
+        let Some(lie) = lies.iter().find(|lie| lie.id == self.surface) else { return Ok(None) };
+        let frame = lie.pose;
+        let mut placed = place(surfaces, &[self.surface], lies, &frame);
+        let seen = Extent { low: end.position, high: end.position };
+        let ids = vec![self.surface];
+        let mut relay = Relay { observer, body: handle, frame, surfaces: ids, began: 0.0, seen };
+        let hold = Hold {
+            load: -Vector3::z() * load,
+            duration: dt,
+            increment: pitch / SAMPLES,
+            limit: LIMIT,
+        };
+        let advance = self.pressed.advance(&mut self.body, &mut placed, end, &hold, &mut relay)?;
+        self.load = if way < pitch { self.load.max(load) } else { load };
+        let friction = placed[0].surface.laws().material.friction;
+        let force = self.pressed.force();
+        let ratio = force.xy().norm() / force.z.max(f64::MIN_POSITIVE);
+        let friction = if force.z > 0.0 { friction.max(ratio) } else { friction };
+        Ok(Some(Pressed_ { advance, friction }))
+    }
+
+    /// Ends the contact: overhangs break off.
+    pub fn end(&mut self, surfaces: &mut [WornCollider], lies: &[Lie]) -> abrade::Ledger {
+        let mut placed = place(surfaces, &[self.surface], lies, &Isometry3::identity());
+        self.pressed.end(&mut placed);
+        *self.pressed.ledger()
+    }
+
+    /// The energies so far.
+    pub fn ledger(&self) -> &abrade::Ledger {
+        self.pressed.ledger()
+    }
+}

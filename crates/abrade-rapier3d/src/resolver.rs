@@ -1,0 +1,29 @@
+//! The ways in which a contact can be resolved.
+
+/// Which resolvers a world may use.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Resolve {
+    /// Per body and step, the cheapest that is right: Micro for a body that nothing but wear
+    /// surfaces touches, Lockstep for a blow that joints or other bodies have a part in,
+    /// QuasiStatic for what lies, leans, slides or rolls.
+    #[default]
+    Auto,
+    /// Micro alone: a body that it cannot carry is left to Rapier and wears nothing.
+    Micro,
+    /// QuasiStatic alone, blows included.
+    QuasiStatic,
+    /// Lockstep alone, with the springs always on: the reference, at its price.
+    Lockstep,
+}
+
+/// A way to resolve a contact over a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Resolver {
+    /// The core's integrator carries the body through the step on its own.
+    Micro,
+    /// Rapier keeps the contact, laid on the worn surface; nodes move by the balance of the load
+    /// that it carried.
+    QuasiStatic,
+    /// The body and all that it touches or is jointed to are stepped finely in a private world.
+    Lockstep,
+}

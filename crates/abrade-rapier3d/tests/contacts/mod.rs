@@ -1,0 +1,6 @@
+//! Every contact, at every step: rows of bodies that lie, are jointed, stacked, struck or pushed,
+//! against the same in lockstep, fine. Both precisions run the same tests.
+
+mod rig;
+mod rows;
+mod table;
