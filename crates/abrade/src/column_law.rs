@@ -4,6 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use crate::candidates::Slot;
 use crate::column::{Column, Interval, Pieces};
+use crate::damping::{Pressed, Shear};
 use crate::elastic::coefficient;
 use crate::laws::{ElasticLaw, FlowLaw};
 use crate::node_law::{Motion, STEEP};
@@ -223,6 +224,33 @@ impl ColumnLaw {
         toll.elastic += change;
         toll.stiffness += self.stiffness * slot.area / (cosine * cosine);
         self.press(step, &span.deep_normal, &arm, force, &mut toll.spring);
+    }
+}
+
+impl ColumnLaw {
+    /// The spring under a column's deep end, compressed along the normal from the first to the
+    /// second of `squeezes` [m], as its dashpot sees it.
+    pub(crate) fn pressed(
+        &self,
+        slot: &Slot,
+        span: &Span,
+        arm: Vector3<f64>,
+        squeezes: [f64; 2],
+    ) -> Pressed {
+        let cosine = (-span.deep_normal.dot(&slot.n)).max(STEEP);
+        let [before, after] = squeezes;
+        Pressed {
+            normal: span.deep_normal,
+            arm,
+            cosine,
+            force: 0.5 * self.stiffness * slot.area * (before + after) / cosine,
+            // Work of the force: what the spring took.
+            advance: (after - before) * cosine,
+            cap: self.price.hardness * slot.area / cosine,
+            stored: squeezes.map(|squeeze| self.stored(slot.area, squeeze)),
+            stiffness: self.stiffness * slot.area / (cosine * cosine),
+            shear: Shear::default(),
+        }
     }
 }
 

@@ -5,12 +5,14 @@
 //! one: a steep wall or an undercut face passing over. Forces built from the deep-end face alone
 //! cut for free.
 
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 
 use crate::body::State;
 use crate::candidates::{Candidates, Slot};
 use crate::column::Column;
 use crate::column_law::{ColumnLaw, Cut, Step};
+use crate::damping::{Damping, Dashpots, damping_ratio};
+use crate::laws::ElasticLaw;
 use crate::node_law::{Motion, heading};
 use crate::shape::Shape;
 use crate::surface::{Surface, SurfaceLaws};
@@ -24,6 +26,8 @@ const GAP_STEPS: usize = 6;
 #[derive(Clone, Debug)]
 pub(crate) struct Columns {
     law: ColumnLaw,
+    /// zeta of the dashpots; zero without them.
+    damping_ratio: f64,
     swept: Swept,
     candidates: Candidates,
     /// One per candidate: the column, and how far the body may move from where the candidates
@@ -34,12 +38,19 @@ pub(crate) struct Columns {
     /// Of the last trial.
     cuts: Vec<Cut>,
     toll: Toll,
+    /// Mid-step centre of mass, and impulse of the dashpots [N s].
+    middle: Point3<f64>,
+    damping: Vector3<f64>,
 }
 
 impl Columns {
     pub(crate) fn new(shape: &Shape, laws: &SurfaceLaws) -> Self {
         Self {
             law: ColumnLaw::new(shape, laws),
+            damping_ratio: match laws.elastic {
+                ElasticLaw::Rigid => 0.0,
+                _ => damping_ratio(laws.restitution),
+            },
             swept: Swept::default(),
             candidates: Candidates::default(),
             columns: Vec::new(),
@@ -47,7 +58,13 @@ impl Columns {
             carried: Vec::new(),
             cuts: Vec::new(),
             toll: Toll::default(),
+            middle: Point3::origin(),
+            damping: Vector3::zeros(),
         }
+    }
+
+    pub(crate) fn damping_ratio(&self) -> f64 {
+        self.damping_ratio
     }
 
     /// g_y [m]; zero without springs.
@@ -126,6 +143,7 @@ impl Columns {
         };
         let mut normal = Vector3::zeros();
         self.toll = Toll::default();
+        self.middle = step.middle;
         self.cuts.clear();
         for (index, &gap) in self.gaps.iter().enumerate() {
             if gap > travelled {
@@ -140,6 +158,24 @@ impl Columns {
             self.cuts.extend(cut.map(|cut| Cut { index: index as u32, ..cut }));
         }
         &self.toll
+    }
+
+    /// Hands over every spring that the last trial pressed or let go.
+    pub(crate) fn press(&self, dashpots: &mut Dashpots) {
+        for cut in &self.cuts {
+            let index = cut.index as usize;
+            let (slot, before) = (&self.candidates.slots[index], self.columns[index].squeeze);
+            let Some(span) = self.swept.span(&slot.x, &slot.n) else { continue };
+            if before != 0.0 || cut.squeeze != 0.0 {
+                let arm = slot.x + slot.n * span.low - self.middle;
+                dashpots.add(self.law.pressed(slot, &span, arm, [before, cut.squeeze]));
+            }
+        }
+    }
+
+    /// Counts what the dashpots do over the last trial.
+    pub(crate) fn take_damping(&mut self, damping: &Damping) {
+        self.damping = damping.impulse;
     }
 
     /// Makes the last trial, of a step of `dt` [s], the state; a blocked body (`share` < 1) takes
@@ -166,7 +202,7 @@ impl Columns {
             }
         }
         let (worn, toll) = (&mut surface.worn, &self.toll);
-        let force = (toll.flow.impulse + toll.spring.impulse) / dt;
+        let force = (toll.flow.impulse + toll.spring.impulse + self.damping) / dt;
         worn.peak_normal_force = worn.peak_normal_force.max(force.norm());
         worn.peak_touching = worn.peak_touching.max(toll.touching);
         worn.indented_area = worn.indented_area.max(toll.flow_area);
@@ -174,7 +210,7 @@ impl Columns {
 
     /// Impulse of the last trial on the body [N s].
     pub(crate) fn impulse(&self) -> Vector3<f64> {
-        self.toll.flow.impulse + self.toll.spring.impulse
+        self.toll.flow.impulse + self.toll.spring.impulse + self.damping
     }
 
     /// End of a contact: overhangs break off, unpaid.

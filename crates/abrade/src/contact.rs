@@ -2,11 +2,12 @@
 
 use crate::body::State;
 use crate::columns::Columns;
+use crate::damping::{Damping, Dashpots};
 use crate::error::PhysicsError;
 use crate::laws::{ElasticLaw, FlowLaw, Lateral};
 use crate::patch::Patch;
 use crate::shape::{Piece, Shape};
-use crate::surface::Surface;
+use crate::surface::{Surface, SurfaceLaws};
 
 /// Displacement of a body per step of the swept rule, in pitches and in yield overlaps.
 const SWEEP_PITCH: f64 = 0.1;
@@ -87,6 +88,30 @@ impl Contact {
         match self {
             Self::Springs(patch) => patch.cover(surface, shape, state, margin(LIST_PITCH)),
             Self::Columns(columns) => columns.cover(surface, shape, state, margin(SWEPT_PITCH)),
+        }
+    }
+
+    /// zeta of the dashpots; zero without them.
+    pub(crate) fn damping_ratio(&self) -> f64 {
+        match self {
+            Self::Springs(patch) => patch.damping_ratio(),
+            Self::Columns(columns) => columns.damping_ratio(),
+        }
+    }
+
+    /// Hands over every spring that the last trial pressed or let go.
+    pub(crate) fn press(&self, laws: &SurfaceLaws, dashpots: &mut Dashpots) {
+        match self {
+            Self::Springs(patch) => patch.press(laws, dashpots),
+            Self::Columns(columns) => columns.press(dashpots),
+        }
+    }
+
+    /// Counts what the dashpots do over the last trial.
+    pub(crate) fn take_damping(&mut self, damping: &Damping) {
+        match self {
+            Self::Springs(patch) => patch.add_load(damping.normal_load),
+            Self::Columns(columns) => columns.take_damping(damping),
         }
     }
 

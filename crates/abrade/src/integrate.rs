@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 
 use crate::body::{Body, State};
 use crate::contact::Contact;
+use crate::damping::{Damping, Dashpots};
 use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Until};
 use crate::error::PhysicsError;
 use crate::flight::{free_time, separation, time_to_close};
@@ -52,6 +53,11 @@ pub(crate) struct Integrator {
     pub(crate) touching: bool,
     touched: bool,
     energy_before: f64,
+    /// True when a surface damps the body; what its dashpots do over the last trial, and the
+    /// springs that they stand beside.
+    pub(crate) is_damped: bool,
+    pub(crate) damping: Damping,
+    pub(crate) dashpots: Dashpots,
     /// Energy that projections with springs were short of [J].
     pub(crate) short: f64,
     ledger: Ledger,
@@ -69,11 +75,14 @@ impl Integrator {
         let contacts = surfaces
             .into_iter()
             .map(|surface| Contact::new(&body.shape, surface, settings.ledger))
-            .collect::<Result<_, _>>()?;
+            .collect::<Result<Vec<_>, _>>()?;
         Ok(Self {
             settings,
             dynamics,
             eta: (ETA * (settings.accuracy / ETA_ACCURACY).sqrt()).min(ETA_LIMIT),
+            is_damped: contacts.iter().any(|contact| contact.damping_ratio() > 0.0),
+            damping: Damping::default(),
+            dashpots: Dashpots::default(),
             contacts,
             next_dt: 0.0,
             pull: Pull::default(),
@@ -228,7 +237,8 @@ impl Integrator {
             if !trial.is_finite() {
                 return Err(PhysicsError::NotFinite { time: done.contact_time });
             }
-            let allowed = self.eta / trial.omega(&self.dynamics);
+            let omega = trial.omega(&self.dynamics).max(self.damping.rate);
+            let allowed = self.eta / omega;
             if let Some(smaller) = rejected(&trial, dt, allowed) {
                 if dt < f64::MIN_POSITIVE / f64::EPSILON {
                     return Err(PhysicsError::StepVanished { step: dt });
@@ -269,7 +279,7 @@ impl Integrator {
             let weight = loads.force + loads.gravity * body.inertia.mass;
             let ledger = &mut self.ledger;
             ledger.kinetic_change += energy(&state) - energy(&before);
-            ledger.damping += energy(&end.state) - energy(&state);
+            ledger.damping += energy(&end.state) - energy(&state) + end.ledger.damping;
             ledger.external_work +=
                 weight.dot(&trial.shift) + self.dynamics.work(&loads.torque, &trial.turn);
             if self.dynamics.is_guided() {

@@ -11,7 +11,7 @@ pub struct Ledger {
     pub friction: f64,
     /// Work of the nodes' forces on their drops (Eqs. 21, 22).
     pub wear: f64,
-    /// Dissipated by damping.
+    /// Dissipated by the damping of loads and by the dashpots of surfaces with a restitution.
     pub damping: f64,
     /// Done by gravity, loads and drives.
     pub external_work: f64,

@@ -12,6 +12,7 @@ mod column;
 mod column_law;
 mod columns;
 mod contact;
+mod damping;
 mod drive;
 mod elastic;
 mod encounter;

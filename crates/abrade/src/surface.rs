@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use crate::error::{ParameterError, SurfaceError};
 use crate::grid::Grid;
-use crate::laws::{ElasticLaw, FlowLaw, Removal};
+use crate::laws::{ElasticLaw, FlowLaw, Lateral, Removal};
 use crate::material::Material;
 use crate::nodes::Nodes;
 
@@ -22,6 +22,10 @@ pub struct SurfaceLaws {
     pub flow: FlowLaw,
     /// Which part of the displaced volume is debris.
     pub removal: Removal,
+    /// Coefficient of restitution of an impact below yield [-], from 0.01 to 1: no damping. Above
+    /// yield dashpots still take their part while nodes load and unload, up to the cap of the flow
+    /// law: less wear and less rebound. `Rigid` has no springs to damp.
+    pub restitution: f64,
 }
 
 /// A flat strip of nodes in close-packed rows along y.
@@ -115,7 +119,28 @@ impl HexStrip {
     }
 }
 
+/// Restitution below which a surface is refused: the body would take some 1/restitution times as
+/// long to leave as it took to come.
+const LEAST_RESTITUTION: f64 = 0.01;
+
 impl SurfaceLaws {
+    /// The laws that hold unless others are chosen: a calibrated `Foundation`, `CapozzaHanley`
+    /// with `Projected`, all of the volume removed, no damping.
+    pub fn of(material: Material) -> Self {
+        Self {
+            material,
+            elastic: ElasticLaw::Foundation { stiffness: None },
+            flow: FlowLaw::CapozzaHanley { lateral: Lateral::Projected },
+            removal: Removal::All,
+            restitution: 1.0,
+        }
+    }
+
+    /// An error unless `restitution` is one that a surface can have.
+    pub fn check_restitution(restitution: f64) -> Option<ParameterError> {
+        ParameterError::within("restitution", restitution, LEAST_RESTITUTION, 1.0)
+    }
+
     /// Every value outside its range, and parameters that a law misses.
     pub fn check(&self) -> Vec<SurfaceError> {
         let mut found: Vec<SurfaceError> = self
@@ -124,6 +149,7 @@ impl SurfaceLaws {
             .into_iter()
             .chain(self.elastic.check())
             .chain(self.removal.check())
+            .chain(Self::check_restitution(self.restitution))
             .map(SurfaceError::from)
             .collect();
         let law = match self.elastic {
