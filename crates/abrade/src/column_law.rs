@@ -10,6 +10,8 @@ use crate::laws::{ElasticLaw, FlowLaw};
 use crate::node_law::{Motion, STEEP};
 use crate::price::Price;
 use crate::shape::Shape;
+#[cfg(feature = "state")]
+use crate::state::{Fault, not_negative, positive, require};
 use crate::surface::SurfaceLaws;
 use crate::sweep::{Entry, Span, Swept};
 use crate::toll::{Push, Toll};
@@ -21,6 +23,7 @@ const LONG: f64 = 3.0;
 
 /// Laws of a body on the columns of a surface.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct ColumnLaw {
     price: Price,
     /// k_w [Pa/m]; infinite without springs.
@@ -263,4 +266,14 @@ fn blocked_entry(step: &Step<'_>, span: &Span, arm: &Vector3<f64>) -> Entry {
     }
     let length = moved.norm().max(f64::MIN_POSITIVE);
     Entry { normal: moved / length, displacement: length }
+}
+
+#[cfg(feature = "state")]
+impl ColumnLaw {
+    pub(crate) fn check(&self) -> Result<(), Fault> {
+        let Price { hardness, shear_hardness, friction } = self.price;
+        let priced = positive(hardness) && not_negative(shear_hardness.unwrap_or(0.0));
+        let sprung = self.stiffness > 0.0 && not_negative(self.yield_overlap);
+        require(priced && not_negative(friction) && sprung, "the laws of columns are out of range")
+    }
 }

@@ -15,6 +15,8 @@ use crate::damping::{Damping, Dashpots, damping_ratio};
 use crate::laws::ElasticLaw;
 use crate::node_law::{Motion, heading};
 use crate::shape::Shape;
+#[cfg(feature = "state")]
+use crate::state::{Fault, not_negative, require};
 use crate::surface::{Surface, SurfaceLaws};
 use crate::sweep::Swept;
 use crate::toll::Toll;
@@ -24,22 +26,30 @@ const GAP_STEPS: usize = 6;
 
 /// Columns between one body and one surface.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "state", serde(remote = "Self"))]
 pub(crate) struct Columns {
     law: ColumnLaw,
     /// zeta of the dashpots; zero without them.
     damping_ratio: f64,
+    #[cfg_attr(feature = "state", serde(skip))]
     swept: Swept,
     candidates: Candidates,
     /// One per candidate: the column, and how far the body may move from where the candidates
     /// were collected before it can touch it [m].
     columns: Vec<Column>,
     gaps: Vec<f64>,
+    #[cfg_attr(feature = "state", serde(skip))]
     carried: Vec<(Slot, Column)>,
     /// Of the last trial.
+    #[cfg_attr(feature = "state", serde(skip))]
     cuts: Vec<Cut>,
+    #[cfg_attr(feature = "state", serde(skip))]
     toll: Toll,
     /// Mid-step centre of mass, and impulse of the dashpots [N s].
+    #[cfg_attr(feature = "state", serde(skip))]
     middle: Point3<f64>,
+    #[cfg_attr(feature = "state", serde(skip))]
     damping: Vector3<f64>,
 }
 
@@ -249,4 +259,23 @@ fn gap(swept: &Swept, slot: &Slot, depth: f64, margin: f64) -> f64 {
         }
     }
     clear
+}
+
+#[cfg(feature = "state")]
+impl Columns {
+    pub(crate) fn checked(self) -> Result<Self, Fault> {
+        self.law.check()?;
+        require(not_negative(self.damping_ratio), "columns are out of range")?;
+        self.candidates.check()?;
+        let count = self.candidates.slots.len();
+        let same = self.columns.len() == count && self.gaps.len() == count;
+        require(same, "columns and candidates differ in number")?;
+        require(self.gaps.iter().all(|&gap| not_negative(gap)), "a gap is below zero")?;
+        Ok(self)
+    }
+
+    /// True when every candidate is one of `nodes`.
+    pub(crate) fn lies_on(&self, nodes: usize) -> bool {
+        self.candidates.lie_on(nodes)
+    }
 }

@@ -21,6 +21,7 @@ const SWEPT_PITCH: f64 = 2.0;
 
 /// How a body meets a surface.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Contact {
     Springs(Patch),
     Columns(Columns),
@@ -127,6 +128,17 @@ impl Contact {
     pub(crate) fn end(&mut self, surface: &mut Surface) {
         if let Self::Columns(columns) = self {
             columns.end_contact(surface);
+        }
+    }
+}
+
+#[cfg(feature = "state")]
+impl Contact {
+    /// True when every candidate is one of `nodes`.
+    pub(crate) fn lies_on(&self, nodes: usize) -> bool {
+        match self {
+            Self::Springs(patch) => patch.lies_on(nodes),
+            Self::Columns(columns) => columns.lies_on(nodes),
         }
     }
 }

@@ -139,7 +139,7 @@ impl Dashpots {
         let relaxation = if stiffness > 0.0 { per_advance * force.norm() / stiffness } else { 0.0 };
         for spring in &self.springs {
             let room = (spring.cap - spring.force).max(0.0);
-            let force = (spring.force * per_advance * spring.advance).clamp(-spring.force, room);
+            let force = (spring.force * per_advance * spring.advance).max(-spring.force).min(room);
             let shear = spring.shear.dashpot(relaxation);
             let impulse = (spring.normal * force + shear) * -dt;
             damping.impulse += impulse;

@@ -8,6 +8,8 @@ use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Pla
 use crate::error::PhysicsError;
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
+#[cfg(feature = "state")]
+use crate::state::{Fault, not_negative, require};
 use crate::surface::Surface;
 use crate::trial::{Course, Trial};
 
@@ -21,6 +23,7 @@ const LOAD_STEPS: usize = 60;
 
 /// What a driven body does.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub struct Drive {
     /// Load at which the indentation ends [N].
     pub indent_to: f64,
@@ -38,6 +41,7 @@ pub struct Drive {
 
 /// How the vertical motion of a sliding body follows from its load.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub enum DriveSolution {
     /// Newton's law for the driven mass.
     Dynamic,
@@ -62,6 +66,8 @@ impl Drive {
 
 /// A driven body in its course.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "state", serde(remote = "Self"))]
 pub struct Driven {
     drive: Drive,
     integrator: Integrator,
@@ -129,6 +135,7 @@ impl Driven {
         placed: &mut [Placed<'_>; 1],
         observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
+        self.integrator.fits(placed)?;
         let down = -(placed[0].pose.rotation * Vector3::z());
         let overlap = self.integrator.contacts[0].yield_overlap();
         let increment = match overlap.is_finite() {
@@ -222,6 +229,7 @@ impl Driven {
         increment: f64,
         observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
+        self.integrator.fits(placed)?;
         let rotation = placed[0].pose.rotation;
         let (ahead, down) = (rotation * Vector3::x(), -(rotation * Vector3::z()));
         let travel = duration * self.drive.speed;
@@ -234,6 +242,9 @@ impl Driven {
             let trial = self.push(body, placed, along + down * sink);
             done.node_evaluations += trial.evaluations;
             done.steps += 1;
+            if done.steps > self.integrator.step_limit() {
+                return Err(PhysicsError::TooManySteps { steps: done.steps });
+            }
             self.integrator.lead(body, placed, dt, &trial);
             done.impulse += self.force() * dt;
             observer.observe(&Instant {
@@ -311,5 +322,14 @@ impl Driven {
         state.position += shift;
         let course = Course { velocity: shift, spin: Vector3::zeros(), dt: 1.0 };
         self.integrator.ask(body, placed, &state, course)
+    }
+}
+
+#[cfg(feature = "state")]
+impl Driven {
+    pub(crate) fn checked(self) -> Result<Self, Fault> {
+        let fine = self.drive.is_sound() && not_negative(self.travelled);
+        require(fine && self.integrator.count() == 1, "a drive is out of range")?;
+        Ok(self)
     }
 }

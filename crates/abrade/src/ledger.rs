@@ -2,6 +2,7 @@
 
 /// Energies of one body's contacts [J]. Every wear and friction increment is >= 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub struct Ledger {
     /// Stored in the springs now.
     pub elastic: f64,

@@ -37,6 +37,8 @@ pub mod quantity;
 mod query;
 mod rotation;
 mod shape;
+#[cfg(feature = "state")]
+mod state;
 mod surface;
 mod sweep;
 mod toll;

@@ -17,10 +17,14 @@ use crate::material::Material;
 use crate::node_law::{Motion, STEEP, Spring};
 use crate::query::{BodyQuery, Contactor, Query, Touch};
 use crate::shape::Shape;
+#[cfg(feature = "state")]
+use crate::state::{Fault, not_negative, positive, require};
 use crate::surface::{Surface, SurfaceLaws};
 
 /// Springs between one body and one surface.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "state", serde(remote = "Self"))]
 pub(crate) struct Patch {
     query: BodyQuery,
     inflation: f64,
@@ -31,9 +35,12 @@ pub(crate) struct Patch {
     candidates: Candidates,
     /// Springs at the start of the step and at its trial end, one per candidate.
     old: Vec<Spring>,
+    #[cfg_attr(feature = "state", serde(skip))]
     new: Vec<Spring>,
+    #[cfg_attr(feature = "state", serde(skip))]
     carried: Vec<(u32, Spring)>,
     /// Of the last trial.
+    #[cfg_attr(feature = "state", serde(skip))]
     reaction: Reaction,
 }
 
@@ -341,4 +348,24 @@ fn yield_overlap(contactors: &[Contactor], surface: &Surface) -> f64 {
         }
     };
     contactors.iter().map(of).fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(feature = "state")]
+impl Patch {
+    pub(crate) fn checked(mut self) -> Result<Self, Fault> {
+        let lengths = not_negative(self.inflation) && positive(self.yield_overlap);
+        require(lengths && not_negative(self.damping_ratio), "a patch is out of range")?;
+        self.query.check()?;
+        self.candidates.check()?;
+        let count = self.candidates.slots.len();
+        require(self.old.len() == count, "springs and candidates differ in number")?;
+        require(self.old.iter().all(Spring::is_finite), "a spring is not finite")?;
+        self.new.resize(count, Spring::default());
+        Ok(self)
+    }
+
+    /// True when every candidate is one of `nodes`.
+    pub(crate) fn lies_on(&self, nodes: usize) -> bool {
+        self.candidates.lie_on(nodes)
+    }
 }

@@ -11,6 +11,8 @@ use crate::ledger::Ledger;
 use crate::node_law::Motion;
 use crate::projection::{balance, pay};
 use crate::rotation::Dynamics;
+#[cfg(feature = "state")]
+use crate::state::finite;
 use crate::toll::{Push, Toll};
 
 /// Largest predicted change of the speed by columns without springs, as a share of it.
@@ -18,6 +20,7 @@ const PREDICTION: f64 = 0.1;
 
 /// What contacts do to a body at an instant.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Pull {
     /// Force [N] and torque [N m] of all contacts.
     pub force: Vector3<f64>,
@@ -326,5 +329,14 @@ impl Integrator {
         };
         self.touching = trial.touching > 0;
         self.next_dt = self.eta / trial.omega(&self.dynamics);
+    }
+}
+
+#[cfg(feature = "state")]
+impl Pull {
+    pub(crate) fn is_finite(&self) -> bool {
+        let Self { force, torque, spring_force, spring_torque, push } = self;
+        let parts = [force, torque, spring_force, spring_torque, push];
+        parts.iter().all(|part| finite(part.iter()))
     }
 }
