@@ -5,7 +5,7 @@
 //!
 //! `cargo run --release --example embed`
 
-use abrade::{ElasticLaw, FlowLaw, HexStrip, Lateral, Material, Removal, Surface, SurfaceLaws};
+use abrade::{HexStrip, Material, Surface, SurfaceLaws};
 use abrade_rapier3d::rapier::prelude::*;
 use abrade_rapier3d::{WearSettings, WearWorld};
 
@@ -29,17 +29,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 }
 
 fn soft_steel() -> Result<Surface, abrade::SurfaceError> {
-    let laws = SurfaceLaws {
-        material: Material {
-            hardness: 1.7e9,
-            shear_ratio: 0.25,
-            young: Some(200e9),
-            poisson: 0.3,
-            friction: 0.3,
-        },
-        elastic: ElasticLaw::Foundation { stiffness: None },
-        flow: FlowLaw::CapozzaHanley { lateral: Lateral::Projected },
-        removal: Removal::All,
-    };
+    let laws = SurfaceLaws::of(Material {
+        hardness: 1.7e9,
+        shear_ratio: 0.25,
+        young: Some(200e9),
+        poisson: 0.3,
+        friction: 0.3,
+    });
     Surface::hex_strip(HexStrip { length: 0.06, width: 0.04, pitch: 0.1e-3, rest_area: None }, laws)
 }

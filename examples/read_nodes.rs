@@ -67,11 +67,6 @@ fn plate() -> Result<Surface, abrade::SurfaceError> {
         poisson: 0.3,
         friction: 0.3,
     };
-    let laws = SurfaceLaws {
-        material,
-        elastic: abrade::ElasticLaw::Foundation { stiffness: None },
-        flow: abrade::FlowLaw::CapozzaHanley { lateral: abrade::Lateral::Projected },
-        removal: abrade::Removal::All,
-    };
+    let laws = SurfaceLaws::of(material);
     Surface::hex_strip(HexStrip { length: 0.02, width: 0.02, pitch: 0.1e-3, rest_area: None }, laws)
 }

@@ -5,7 +5,7 @@
 //!
 //! `cargo run --release --example wear_plate`
 
-use abrade::{ElasticLaw, FlowLaw, HexStrip, Lateral, Material, Removal, Surface, SurfaceLaws};
+use abrade::{HexStrip, Material, Surface, SurfaceLaws};
 use abrade_rapier3d::rapier::prelude::*;
 use abrade_rapier3d::{WearEvent, WearSettings, WearWorld};
 
@@ -63,11 +63,6 @@ fn soft_steel() -> Result<Surface, abrade::SurfaceError> {
         poisson: Material::default_poisson(),
         friction: 0.3,
     };
-    let laws = SurfaceLaws {
-        material,
-        elastic: ElasticLaw::Foundation { stiffness: None },
-        flow: FlowLaw::CapozzaHanley { lateral: Lateral::Projected },
-        removal: Removal::All,
-    };
+    let laws = SurfaceLaws::of(material);
     Surface::hex_strip(HexStrip { length: 0.06, width: 0.04, pitch: 0.1e-3, rest_area: None }, laws)
 }

@@ -6,6 +6,7 @@ mod foundation;
 mod ledger;
 mod nature;
 mod paper;
+mod restitution;
 mod rig;
 mod selfsimilar;
 mod sphere;

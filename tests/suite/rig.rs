@@ -2,7 +2,7 @@
 
 use abrade::{
     Body, ElasticLaw, Encounter, EncounterSettings, FlowLaw, HertzConvention, HexStrip, Inertia,
-    Lateral, Loads, Material, Observer, Placed, Removal, Shape, State, Surface, SurfaceLaws, Until,
+    Lateral, Loads, Material, Observer, Placed, Shape, State, Surface, SurfaceLaws, Until,
 };
 use nalgebra::{Isometry3, Point3, Vector3};
 
@@ -32,7 +32,7 @@ pub struct Outcome {
 pub fn laws(hardness: f64, elastic: ElasticLaw, flow: FlowLaw) -> SurfaceLaws {
     let material =
         Material { hardness, shear_ratio: 0.25, young: Some(200e9), poisson: 0.3, friction: 0.5 };
-    SurfaceLaws { material, elastic, flow, removal: Removal::All }
+    SurfaceLaws { elastic, flow, ..SurfaceLaws::of(material) }
 }
 
 pub fn hertz() -> ElasticLaw {

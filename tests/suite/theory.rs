@@ -3,7 +3,7 @@
 
 use abrade::{
     Body, ElasticLaw, Encounter, EncounterSettings, FlowLaw, HexStrip, Hull, Inertia, Loads,
-    Material, Placed, Polyhedron, Removal, Shape, State, Surface, SurfaceLaws, Until,
+    Material, Placed, Polyhedron, Shape, State, Surface, SurfaceLaws, Until,
 };
 use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, UnitQuaternion, Vector3};
 
@@ -60,10 +60,9 @@ impl Shot {
             friction: self.friction,
         };
         SurfaceLaws {
-            material,
             elastic: self.elastic.clone(),
             flow: self.flow.clone(),
-            removal: Removal::All,
+            ..SurfaceLaws::of(material)
         }
     }
 

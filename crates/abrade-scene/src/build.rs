@@ -82,6 +82,7 @@ impl Checked {
             elastic: surface.elastic.clone(),
             flow: surface.flow.clone(),
             removal: surface.removal.clone(),
+            restitution: surface.restitution,
         };
         let surface = Surface::hex_strip(strip, laws)
             .map_err(|error| BuildError::Surface { name: name.to_owned(), error })?;

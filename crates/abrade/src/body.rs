@@ -3,9 +3,13 @@
 use nalgebra::{Isometry3, Matrix3, Point3, Translation3, UnitQuaternion, Vector3};
 
 use crate::shape::Shape;
+#[cfg(feature = "state")]
+use crate::state::{Fault, finite, positive, require};
 
 /// Mass and inertia about the centre of mass.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "state", serde(remote = "Self"))]
 pub struct Inertia {
     /// Mass [kg].
     pub mass: f64,
@@ -15,6 +19,8 @@ pub struct Inertia {
 
 /// Where a body is and how it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "state", serde(remote = "Self"))]
 pub struct State {
     /// Centre of mass [m].
     pub position: Point3<f64>,
@@ -28,6 +34,7 @@ pub struct State {
 
 /// A rigid body that can wear a surface.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub struct Body {
     /// Geometry about the centre of mass.
     pub shape: Shape,
@@ -96,3 +103,25 @@ impl Inertia {
         0.5 * self.mass * state.velocity.norm_squared() + 0.5 * spin.dot(&(self.tensor * spin))
     }
 }
+
+#[cfg(feature = "state")]
+impl State {
+    pub(crate) fn checked(self) -> Result<Self, Fault> {
+        let unit = (self.rotation.norm() - 1.0).abs() < UNIT;
+        require(self.is_finite() && unit, "a state is not finite, or its rotation none")?;
+        Ok(self)
+    }
+}
+
+#[cfg(feature = "state")]
+impl Inertia {
+    pub(crate) fn checked(self) -> Result<Self, Fault> {
+        let fine = positive(self.mass) && finite(self.tensor.iter());
+        require(fine, "an inertia is not finite, or its mass not above zero")?;
+        Ok(self)
+    }
+}
+
+/// Round-off of unit vectors that have turned for long.
+#[cfg(feature = "state")]
+const UNIT: f64 = 1e-6;

@@ -6,11 +6,14 @@ use crate::body::State;
 use crate::extent::{bounds, bounds_below, clearance};
 use crate::grid::Grid;
 use crate::shape::{Piece, Shape};
+#[cfg(feature = "state")]
+use crate::state::{Fault, finite, not_negative, positive, require};
 use crate::surface::Surface;
 use crate::sweep::Swept;
 
 /// A node in the cache: what the inner loop reads, side by side.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Slot {
     pub id: u32,
     /// Present position in the surface's frame [m].
@@ -21,6 +24,7 @@ pub(crate) struct Slot {
 
 /// The cache: every node whose distance from the body was below a margin when it was made.
 #[derive(Clone, Debug, Default)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Candidates {
     pub slots: Vec<Slot>,
     /// Pose at which the cache was made, and how far the body may move from it.
@@ -124,4 +128,21 @@ fn reach_box(grid: &Grid, shape: &Shape, state: &State, reach: f64) -> [Point3<f
         (radius * radius - others).max(0.0).sqrt()
     });
     [centre - half, centre + half]
+}
+
+#[cfg(feature = "state")]
+impl Candidates {
+    pub(crate) fn check(&self) -> Result<(), Fault> {
+        let sorted = self.slots.is_sorted_by(|a, b| a.id < b.id);
+        require(sorted, "candidates are not in their order")?;
+        let numbers =
+            |slot: &Slot| finite(slot.x.coords.iter().chain(slot.n.iter())) && positive(slot.area);
+        let made = self.made.as_ref().is_none_or(|(_, margin)| not_negative(*margin));
+        require(made && self.slots.iter().all(numbers), "candidates are out of range")
+    }
+
+    /// True when every candidate is one of `nodes`.
+    pub(crate) fn lie_on(&self, nodes: usize) -> bool {
+        self.slots.last().is_none_or(|slot| (slot.id as usize) < nodes)
+    }
 }

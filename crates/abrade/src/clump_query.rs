@@ -6,18 +6,23 @@ use crate::body::State;
 use crate::hull::Plane;
 use crate::query::{BallQuery, Contactor, Query, Touch};
 use crate::shape::Piece;
+#[cfg(feature = "state")]
+use crate::state::{Fault, finite, positive, require};
 
 /// Any clump of balls and hulls: the piece with the largest pressure wins, so that the stored
 /// energy is continuous where the carving piece changes.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct ClumpQuery {
     balls: Vec<BallQuery>,
     hulls: Vec<HullQuery>,
+    #[cfg_attr(feature = "state", serde(skip))]
     position: Point3<f64>,
 }
 
 /// Face planes of a hull, inflated: in the body's frame and at the present pose.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 struct HullQuery {
     planes_local: Vec<Plane>,
     planes: Vec<Plane>,
@@ -110,5 +115,19 @@ impl HullQuery {
             literal_cosine: -plane.normal.dot(n),
             radius: f64::INFINITY,
         }
+    }
+}
+
+#[cfg(feature = "state")]
+impl ClumpQuery {
+    pub(crate) fn check(&self) -> Result<(), Fault> {
+        self.balls.iter().try_for_each(BallQuery::check)?;
+        let hulls = self.hulls.iter().all(|hull| {
+            let planes = hull.planes_local.iter().flat_map(|p| p.normal.iter().chain([&p.offset]));
+            let same = hull.planes.len() == hull.planes_local.len();
+            same && finite(planes) && positive(hull.coefficient)
+        });
+        let some = !(self.balls.is_empty() && self.hulls.is_empty());
+        require(hulls && some, "a clump in contact is out of range")
     }
 }

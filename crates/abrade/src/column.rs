@@ -1,6 +1,9 @@
 //! The material along one node's line during a contact: solid below the node, less the voids that
 //! bodies have cut. Coordinates run along the normal from the node's place at the first touch.
 
+#[cfg(feature = "state")]
+use crate::state::{Fault, finite, not_negative, require};
+
 /// Voids a column can hold; beyond that the thinnest slab between two of them breaks off.
 const VOIDS: usize = 4;
 
@@ -16,6 +19,8 @@ pub(crate) struct Intervals<const N: usize> {
 
 /// Voids of a column, and the spring under the body.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "state", serde(try_from = "ColumnState", into = "ColumnState"))]
 pub(crate) struct Column {
     voids: Intervals<VOIDS>,
     /// Compression of the spring [m].
@@ -152,6 +157,35 @@ impl Column {
     /// Length of the slabs and overhangs left standing above the floor [m].
     pub(crate) fn standing(&self) -> f64 {
         -self.floor() - self.voids.iter().map(|void| void[1] - void[0]).sum::<f64>()
+    }
+}
+
+/// A column as bytes hold it.
+#[cfg(feature = "state")]
+#[derive(serde::Serialize, serde::Deserialize)]
+pub(crate) struct ColumnState {
+    voids: Vec<Interval>,
+    squeeze: f64,
+}
+
+#[cfg(feature = "state")]
+impl From<Column> for ColumnState {
+    fn from(column: Column) -> Self {
+        Self { voids: column.voids.iter().copied().collect(), squeeze: column.squeeze }
+    }
+}
+
+#[cfg(feature = "state")]
+impl TryFrom<ColumnState> for Column {
+    type Error = Fault;
+
+    fn try_from(state: ColumnState) -> Result<Self, Fault> {
+        let ends = state.voids.as_flattened();
+        let fine = state.voids.len() <= VOIDS && not_negative(state.squeeze) && finite(ends);
+        require(fine && ends.is_sorted(), "the voids of a column are in disorder")?;
+        let mut column = Self { squeeze: state.squeeze, ..Self::default() };
+        state.voids.iter().for_each(|void| column.voids.push(*void));
+        Ok(column)
     }
 }
 

@@ -4,11 +4,14 @@ use nalgebra::{Point3, Vector3};
 
 use crate::candidates::Slot;
 use crate::column::{Column, Interval, Pieces};
+use crate::damping::{Pressed, Shear};
 use crate::elastic::coefficient;
 use crate::laws::{ElasticLaw, FlowLaw};
 use crate::node_law::{Motion, STEEP};
 use crate::price::Price;
 use crate::shape::Shape;
+#[cfg(feature = "state")]
+use crate::state::{Fault, not_negative, positive, require};
 use crate::surface::SurfaceLaws;
 use crate::sweep::{Entry, Span, Swept};
 use crate::toll::{Push, Toll};
@@ -20,6 +23,7 @@ const LONG: f64 = 3.0;
 
 /// Laws of a body on the columns of a surface.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct ColumnLaw {
     price: Price,
     /// k_w [Pa/m]; infinite without springs.
@@ -226,6 +230,33 @@ impl ColumnLaw {
     }
 }
 
+impl ColumnLaw {
+    /// The spring under a column's deep end, compressed along the normal from the first to the
+    /// second of `squeezes` [m], as its dashpot sees it.
+    pub(crate) fn pressed(
+        &self,
+        slot: &Slot,
+        span: &Span,
+        arm: Vector3<f64>,
+        squeezes: [f64; 2],
+    ) -> Pressed {
+        let cosine = (-span.deep_normal.dot(&slot.n)).max(STEEP);
+        let [before, after] = squeezes;
+        Pressed {
+            normal: span.deep_normal,
+            arm,
+            cosine,
+            force: 0.5 * self.stiffness * slot.area * (before + after) / cosine,
+            // Work of the force: what the spring took.
+            advance: (after - before) * cosine,
+            cap: self.price.hardness * slot.area / cosine,
+            stored: squeezes.map(|squeeze| self.stored(slot.area, squeeze)),
+            stiffness: self.stiffness * slot.area / (cosine * cosine),
+            shear: Shear::default(),
+        }
+    }
+}
+
 /// Only after a blocked step: the deep end pays; a receding one opposes the motion.
 fn blocked_entry(step: &Step<'_>, span: &Span, arm: &Vector3<f64>) -> Entry {
     let moved = (step.motion.velocity + step.motion.spin.cross(arm)) * step.motion.dt;
@@ -235,4 +266,14 @@ fn blocked_entry(step: &Step<'_>, span: &Span, arm: &Vector3<f64>) -> Entry {
     }
     let length = moved.norm().max(f64::MIN_POSITIVE);
     Entry { normal: moved / length, displacement: length }
+}
+
+#[cfg(feature = "state")]
+impl ColumnLaw {
+    pub(crate) fn check(&self) -> Result<(), Fault> {
+        let Price { hardness, shear_hardness, friction } = self.price;
+        let priced = positive(hardness) && not_negative(shear_hardness.unwrap_or(0.0));
+        let sprung = self.stiffness > 0.0 && not_negative(self.yield_overlap);
+        require(priced && not_negative(friction) && sprung, "the laws of columns are out of range")
+    }
 }

@@ -5,14 +5,18 @@
 //! one: a steep wall or an undercut face passing over. Forces built from the deep-end face alone
 //! cut for free.
 
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 
 use crate::body::State;
 use crate::candidates::{Candidates, Slot};
 use crate::column::Column;
 use crate::column_law::{ColumnLaw, Cut, Step};
+use crate::damping::{Damping, Dashpots, damping_ratio};
+use crate::laws::ElasticLaw;
 use crate::node_law::{Motion, heading};
 use crate::shape::Shape;
+#[cfg(feature = "state")]
+use crate::state::{Fault, not_negative, require};
 use crate::surface::{Surface, SurfaceLaws};
 use crate::sweep::Swept;
 use crate::toll::Toll;
@@ -22,24 +26,41 @@ const GAP_STEPS: usize = 6;
 
 /// Columns between one body and one surface.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "state", serde(remote = "Self"))]
 pub(crate) struct Columns {
     law: ColumnLaw,
+    /// zeta of the dashpots; zero without them.
+    damping_ratio: f64,
+    #[cfg_attr(feature = "state", serde(skip))]
     swept: Swept,
     candidates: Candidates,
     /// One per candidate: the column, and how far the body may move from where the candidates
     /// were collected before it can touch it [m].
     columns: Vec<Column>,
     gaps: Vec<f64>,
+    #[cfg_attr(feature = "state", serde(skip))]
     carried: Vec<(Slot, Column)>,
     /// Of the last trial.
+    #[cfg_attr(feature = "state", serde(skip))]
     cuts: Vec<Cut>,
+    #[cfg_attr(feature = "state", serde(skip))]
     toll: Toll,
+    /// Mid-step centre of mass, and impulse of the dashpots [N s].
+    #[cfg_attr(feature = "state", serde(skip))]
+    middle: Point3<f64>,
+    #[cfg_attr(feature = "state", serde(skip))]
+    damping: Vector3<f64>,
 }
 
 impl Columns {
     pub(crate) fn new(shape: &Shape, laws: &SurfaceLaws) -> Self {
         Self {
             law: ColumnLaw::new(shape, laws),
+            damping_ratio: match laws.elastic {
+                ElasticLaw::Rigid => 0.0,
+                _ => damping_ratio(laws.restitution),
+            },
             swept: Swept::default(),
             candidates: Candidates::default(),
             columns: Vec::new(),
@@ -47,7 +68,13 @@ impl Columns {
             carried: Vec::new(),
             cuts: Vec::new(),
             toll: Toll::default(),
+            middle: Point3::origin(),
+            damping: Vector3::zeros(),
         }
+    }
+
+    pub(crate) fn damping_ratio(&self) -> f64 {
+        self.damping_ratio
     }
 
     /// g_y [m]; zero without springs.
@@ -126,6 +153,7 @@ impl Columns {
         };
         let mut normal = Vector3::zeros();
         self.toll = Toll::default();
+        self.middle = step.middle;
         self.cuts.clear();
         for (index, &gap) in self.gaps.iter().enumerate() {
             if gap > travelled {
@@ -140,6 +168,24 @@ impl Columns {
             self.cuts.extend(cut.map(|cut| Cut { index: index as u32, ..cut }));
         }
         &self.toll
+    }
+
+    /// Hands over every spring that the last trial pressed or let go.
+    pub(crate) fn press(&self, dashpots: &mut Dashpots) {
+        for cut in &self.cuts {
+            let index = cut.index as usize;
+            let (slot, before) = (&self.candidates.slots[index], self.columns[index].squeeze);
+            let Some(span) = self.swept.span(&slot.x, &slot.n) else { continue };
+            if before != 0.0 || cut.squeeze != 0.0 {
+                let arm = slot.x + slot.n * span.low - self.middle;
+                dashpots.add(self.law.pressed(slot, &span, arm, [before, cut.squeeze]));
+            }
+        }
+    }
+
+    /// Counts what the dashpots do over the last trial.
+    pub(crate) fn take_damping(&mut self, damping: &Damping) {
+        self.damping = damping.impulse;
     }
 
     /// Makes the last trial, of a step of `dt` [s], the state; a blocked body (`share` < 1) takes
@@ -166,7 +212,7 @@ impl Columns {
             }
         }
         let (worn, toll) = (&mut surface.worn, &self.toll);
-        let force = (toll.flow.impulse + toll.spring.impulse) / dt;
+        let force = (toll.flow.impulse + toll.spring.impulse + self.damping) / dt;
         worn.peak_normal_force = worn.peak_normal_force.max(force.norm());
         worn.peak_touching = worn.peak_touching.max(toll.touching);
         worn.indented_area = worn.indented_area.max(toll.flow_area);
@@ -174,7 +220,7 @@ impl Columns {
 
     /// Impulse of the last trial on the body [N s].
     pub(crate) fn impulse(&self) -> Vector3<f64> {
-        self.toll.flow.impulse + self.toll.spring.impulse
+        self.toll.flow.impulse + self.toll.spring.impulse + self.damping
     }
 
     /// End of a contact: overhangs break off, unpaid.
@@ -213,4 +259,23 @@ fn gap(swept: &Swept, slot: &Slot, depth: f64, margin: f64) -> f64 {
         }
     }
     clear
+}
+
+#[cfg(feature = "state")]
+impl Columns {
+    pub(crate) fn checked(self) -> Result<Self, Fault> {
+        self.law.check()?;
+        require(not_negative(self.damping_ratio), "columns are out of range")?;
+        self.candidates.check()?;
+        let count = self.candidates.slots.len();
+        let same = self.columns.len() == count && self.gaps.len() == count;
+        require(same, "columns and candidates differ in number")?;
+        require(self.gaps.iter().all(|&gap| not_negative(gap)), "a gap is below zero")?;
+        Ok(self)
+    }
+
+    /// True when every candidate is one of `nodes`.
+    pub(crate) fn lies_on(&self, nodes: usize) -> bool {
+        self.candidates.lie_on(nodes)
+    }
 }

@@ -2,11 +2,12 @@
 
 use crate::body::State;
 use crate::columns::Columns;
+use crate::damping::{Damping, Dashpots};
 use crate::error::PhysicsError;
 use crate::laws::{ElasticLaw, FlowLaw, Lateral};
 use crate::patch::Patch;
 use crate::shape::{Piece, Shape};
-use crate::surface::Surface;
+use crate::surface::{Surface, SurfaceLaws};
 
 /// Displacement of a body per step of the swept rule, in pitches and in yield overlaps.
 const SWEEP_PITCH: f64 = 0.1;
@@ -20,6 +21,7 @@ const SWEPT_PITCH: f64 = 2.0;
 
 /// How a body meets a surface.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Contact {
     Springs(Patch),
     Columns(Columns),
@@ -90,6 +92,30 @@ impl Contact {
         }
     }
 
+    /// zeta of the dashpots; zero without them.
+    pub(crate) fn damping_ratio(&self) -> f64 {
+        match self {
+            Self::Springs(patch) => patch.damping_ratio(),
+            Self::Columns(columns) => columns.damping_ratio(),
+        }
+    }
+
+    /// Hands over every spring that the last trial pressed or let go.
+    pub(crate) fn press(&self, laws: &SurfaceLaws, dashpots: &mut Dashpots) {
+        match self {
+            Self::Springs(patch) => patch.press(laws, dashpots),
+            Self::Columns(columns) => columns.press(dashpots),
+        }
+    }
+
+    /// Counts what the dashpots do over the last trial.
+    pub(crate) fn take_damping(&mut self, damping: &Damping) {
+        match self {
+            Self::Springs(patch) => patch.add_load(damping.normal_load),
+            Self::Columns(columns) => columns.take_damping(damping),
+        }
+    }
+
     /// Largest overlap of a node with the body at `state` [m].
     pub(crate) fn deepest(&mut self, surface: &Surface, shape: &Shape, state: &State) -> f64 {
         match self {
@@ -102,6 +128,17 @@ impl Contact {
     pub(crate) fn end(&mut self, surface: &mut Surface) {
         if let Self::Columns(columns) = self {
             columns.end_contact(surface);
+        }
+    }
+}
+
+#[cfg(feature = "state")]
+impl Contact {
+    /// True when every candidate is one of `nodes`.
+    pub(crate) fn lies_on(&self, nodes: usize) -> bool {
+        match self {
+            Self::Springs(patch) => patch.lies_on(nodes),
+            Self::Columns(columns) => columns.lies_on(nodes),
         }
     }
 }

@@ -9,6 +9,8 @@ use crate::error::PhysicsError;
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
 use crate::press::{LOAD, LOAD_STEPS, Press};
+#[cfg(feature = "state")]
+use crate::state::{Fault, not_negative, require};
 use crate::surface::Surface;
 use crate::trial::{Course, Trial};
 
@@ -18,6 +20,7 @@ const INDENT_PITCH: f64 = 0.01;
 
 /// What a driven body does.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub struct Drive {
     /// Load at which the indentation ends [N].
     pub indent_to: f64,
@@ -35,6 +38,7 @@ pub struct Drive {
 
 /// How the vertical motion of a sliding body follows from its load.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub enum DriveSolution {
     /// Newton's law for the driven mass.
     Dynamic,
@@ -59,6 +63,8 @@ impl Drive {
 
 /// A driven body in its course.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "state", serde(remote = "Self"))]
 pub struct Driven {
     drive: Drive,
     integrator: Integrator,
@@ -126,6 +132,7 @@ impl Driven {
         placed: &mut [Placed<'_>; 1],
         observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
+        self.integrator.fits(placed)?;
         let down = -(placed[0].pose.rotation * Vector3::z());
         let overlap = self.integrator.contacts[0].yield_overlap();
         let increment = match overlap.is_finite() {
@@ -219,6 +226,7 @@ impl Driven {
         increment: f64,
         observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
+        self.integrator.fits(placed)?;
         let rotation = placed[0].pose.rotation;
         let (ahead, down) = (rotation * Vector3::x(), -(rotation * Vector3::z()));
         let travel = duration * self.drive.speed;
@@ -231,6 +239,9 @@ impl Driven {
             let trial = self.integrator.press(body, placed, &press, increment)?;
             done.node_evaluations += trial.evaluations;
             done.steps += 1;
+            if done.steps > self.integrator.step_limit() {
+                return Err(PhysicsError::TooManySteps { steps: done.steps });
+            }
             self.lead(body, placed, dt, &trial);
             done.impulse += self.force() * dt;
             observer.observe(&Instant {
@@ -278,5 +289,14 @@ impl Driven {
         state.position += shift;
         let course = Course { velocity: shift, spin: Vector3::zeros(), dt: 1.0 };
         self.integrator.ask(body, placed, &state, course)
+    }
+}
+
+#[cfg(feature = "state")]
+impl Driven {
+    pub(crate) fn checked(self) -> Result<Self, Fault> {
+        let fine = self.drive.is_sound() && not_negative(self.travelled);
+        require(fine && self.integrator.count() == 1, "a drive is out of range")?;
+        Ok(self)
     }
 }

@@ -11,6 +11,7 @@ use crate::surface::Surface;
 
 /// What an encounter is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub struct EncounterSettings {
     /// Target relative time error of the wear volume [-].
     pub accuracy: f64,
@@ -104,6 +105,7 @@ impl Observer for () {
 
 /// One body's running contact with wear surfaces.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub struct Encounter {
     integrator: Integrator,
 }

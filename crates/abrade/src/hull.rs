@@ -7,6 +7,8 @@ use parry3d_f64::transformation::try_convex_hull;
 
 use crate::body::Inertia;
 use crate::error::{ParameterError, ShapeError};
+#[cfg(feature = "state")]
+use crate::state::{Fault, finite, positive, require};
 
 /// Thickness over extent below which points count as coplanar.
 const COPLANAR: f64 = 1e-9;
@@ -15,6 +17,8 @@ const SAME_FACE: f64 = 1e-7;
 
 /// A convex polyhedron, kept as its vertices and the planes of its faces.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "state", serde(remote = "Self"))]
 pub struct Hull {
     vertices: Vec<Point3<f64>>,
     facets: Vec<[u32; 3]>,
@@ -23,6 +27,7 @@ pub struct Hull {
 
 /// The plane of a face: normal . x = offset, the polyhedron on the side below.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub struct Plane {
     /// Outward unit normal.
     pub normal: Vector3<f64>,
@@ -231,6 +236,22 @@ impl Polyhedron {
 pub fn cuboid_vertices(half_extents: &Vector3<f64>) -> Vec<Point3<f64>> {
     let sign = |i: usize, a: usize| if i >> a & 1 == 0 { -1.0 } else { 1.0 };
     (0..8).map(|i| Point3::from(Vector3::from_fn(|a, _| sign(i, a) * half_extents[a]))).collect()
+}
+
+#[cfg(feature = "state")]
+impl Hull {
+    pub(crate) fn checked(self) -> Result<Self, Fault> {
+        let corners = self.vertices.iter().flat_map(|v| v.coords.iter());
+        let planes = self.planes.iter().flat_map(|p| p.normal.iter().chain([&p.offset]));
+        require(finite(corners), "a corner is not finite")?;
+        require(finite(planes), "a plane is not finite")?;
+        let count = self.vertices.len();
+        let inside = self.facets.iter().flatten().all(|&i| (i as usize) < count);
+        require(inside, "a facet of a hull has no corner")?;
+        let solid = !self.planes.is_empty() && positive(self.volume());
+        require(solid, "a hull has no volume")?;
+        Ok(self)
+    }
 }
 
 #[cfg(test)]

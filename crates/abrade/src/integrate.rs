@@ -8,11 +8,14 @@ use nalgebra::Vector3;
 
 use crate::body::{Body, State};
 use crate::contact::Contact;
+use crate::damping::{Damping, Dashpots};
 use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Until};
 use crate::error::PhysicsError;
 use crate::flight::{free_time, separation, time_to_close};
 use crate::ledger::Ledger;
 use crate::rotation::Dynamics;
+#[cfg(feature = "state")]
+use crate::state::{Fault, finite, not_negative, positive, require};
 use crate::surface::Surface;
 use crate::toll::Toll;
 use crate::trial::{Pull, Trial};
@@ -40,11 +43,15 @@ const STOPPED: f64 = 1e-9;
 
 /// State of a contact between calls.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "state", serde(remote = "Self"))]
 pub(crate) struct Integrator {
     settings: EncounterSettings,
     pub(crate) dynamics: Dynamics,
     pub(crate) eta: f64,
     pub(crate) contacts: Vec<Contact>,
+    /// Numbers of nodes of the surfaces that it was made with.
+    node_counts: Vec<usize>,
     /// Step that the last contact asked for [s]; zero when there is none.
     pub(crate) next_dt: f64,
     /// What the contacts do to the body at the present instant.
@@ -52,6 +59,13 @@ pub(crate) struct Integrator {
     pub(crate) touching: bool,
     pub(crate) touched: bool,
     energy_before: f64,
+    /// True when a surface damps the body; what its dashpots do over the last trial, and the
+    /// springs that they stand beside.
+    pub(crate) is_damped: bool,
+    #[cfg_attr(feature = "state", serde(skip))]
+    pub(crate) damping: Damping,
+    #[cfg_attr(feature = "state", serde(skip))]
+    pub(crate) dashpots: Dashpots,
     /// Energy that projections with springs were short of [J].
     pub(crate) short: f64,
     ledger: Ledger,
@@ -66,15 +80,20 @@ impl Integrator {
         let dynamics = Dynamics::new(&body.inertia, body.rotation_locked).ok_or(
             PhysicsError::Unsupported { what: "the body's mass or inertia is not positive" },
         )?;
-        let contacts = surfaces
-            .into_iter()
-            .map(|surface| Contact::new(&body.shape, surface, settings.ledger))
-            .collect::<Result<_, _>>()?;
+        let (mut contacts, mut node_counts) = (Vec::new(), Vec::new());
+        for surface in surfaces {
+            contacts.push(Contact::new(&body.shape, surface, settings.ledger)?);
+            node_counts.push(surface.nodes.len());
+        }
         Ok(Self {
             settings,
             dynamics,
             eta: (ETA * (settings.accuracy / ETA_ACCURACY).sqrt()).min(ETA_LIMIT),
+            is_damped: contacts.iter().any(|contact| contact.damping_ratio() > 0.0),
+            damping: Damping::default(),
+            dashpots: Dashpots::default(),
             contacts,
+            node_counts,
             next_dt: 0.0,
             pull: Pull::default(),
             touching: false,
@@ -106,6 +125,17 @@ impl Integrator {
         self.settings.step_limit
     }
 
+    /// An error unless these are surfaces of the sizes that it was made with.
+    pub(crate) fn fits(&self, surfaces: &[Placed<'_>]) -> Result<(), PhysicsError> {
+        let counts = surfaces.iter().map(|placed| placed.surface.nodes.len());
+        if counts.eq(self.node_counts.iter().copied()) {
+            return Ok(());
+        }
+        Err(PhysicsError::Unsupported {
+            what: "the surfaces are not those that the encounter was made with",
+        })
+    }
+
     pub(crate) fn advance(
         &mut self,
         body: &mut Body,
@@ -115,6 +145,7 @@ impl Integrator {
         until: Until,
         observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
+        self.fits(surfaces)?;
         let mut done = Advance::default();
         while done.time < duration {
             let remaining = duration - done.time;
@@ -233,7 +264,8 @@ impl Integrator {
             if !trial.is_finite() {
                 return Err(PhysicsError::NotFinite { time: done.contact_time });
             }
-            let allowed = self.eta / trial.omega(&self.dynamics);
+            let omega = trial.omega(&self.dynamics).max(self.damping.rate);
+            let allowed = self.eta / omega;
             if let Some(smaller) = rejected(&trial, dt, allowed) {
                 if dt < f64::MIN_POSITIVE / f64::EPSILON {
                     return Err(PhysicsError::StepVanished { step: dt });
@@ -274,7 +306,7 @@ impl Integrator {
             let weight = loads.force + loads.gravity * body.inertia.mass;
             let ledger = &mut self.ledger;
             ledger.kinetic_change += energy(&state) - energy(&before);
-            ledger.damping += energy(&end.state) - energy(&state);
+            ledger.damping += energy(&end.state) - energy(&state) + end.ledger.damping;
             ledger.external_work +=
                 weight.dot(&trial.shift) + self.dynamics.work(&loads.torque, &trial.turn);
             if self.dynamics.is_guided() {
@@ -401,4 +433,26 @@ pub(crate) fn engulfed(placed: &Placed<'_>, state: &State) -> Result<(), Physics
         return Err(PhysicsError::Engulfed { depth: high.z - local.z });
     }
     Ok(())
+}
+
+#[cfg(feature = "state")]
+impl Integrator {
+    pub(crate) fn checked(self) -> Result<Self, Fault> {
+        let EncounterSettings { accuracy, .. } = self.settings;
+        let steps = positive(accuracy) && positive(self.eta) && self.eta <= ETA_LIMIT;
+        require(steps && not_negative(self.next_dt), "the steps of a contact are out of range")?;
+        self.dynamics.check()?;
+        let same = self.contacts.len() == self.node_counts.len();
+        let mut pairs = self.contacts.iter().zip(&self.node_counts);
+        let within = pairs.all(|(contact, &nodes)| contact.lies_on(nodes));
+        require(same && within, "a candidate is no node of its surface")?;
+        let energies = finite(&[self.energy_before, self.short]);
+        require(energies && self.pull.is_finite(), "the forces of a contact are not finite")?;
+        Ok(self)
+    }
+
+    /// Number of surfaces.
+    pub(crate) fn count(&self) -> usize {
+        self.contacts.len()
+    }
 }

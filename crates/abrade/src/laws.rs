@@ -7,6 +7,7 @@ use crate::error::ParameterError;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "state", derive(serde::Serialize))]
 pub enum ElasticLaw {
     /// Winkler foundation: pressure k_w d, independent of the mesh.
     Foundation {
@@ -38,6 +39,7 @@ pub enum ElasticLaw {
 /// Which bodies give way in [`ElasticLaw::HertzNodes`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "state", derive(serde::Serialize))]
 pub enum HertzConvention {
     /// K = 2E/(3(1-nu^2)), k_t = 4G/(2-nu): node and body of the same elasticity.
     #[default]
@@ -50,6 +52,7 @@ pub enum HertzConvention {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "state", derive(serde::Serialize))]
 pub enum FlowLaw {
     /// Capozza & Hanley (2022), Eqs. 7-9: a normal gate and a lateral gate.
     CapozzaHanley {
@@ -65,6 +68,7 @@ pub enum FlowLaw {
 /// Geometry of the lateral drop in [`FlowLaw::CapozzaHanley`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "state", derive(serde::Serialize))]
 pub enum Lateral {
     /// Exact and signed: the drop that keeps the node on the moving body.
     #[default]
@@ -78,6 +82,7 @@ pub enum Lateral {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "state", derive(serde::Serialize))]
 pub enum Removal {
     /// All of it.
     #[default]

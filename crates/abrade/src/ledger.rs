@@ -2,6 +2,7 @@
 
 /// Energies of one body's contacts [J]. Every wear and friction increment is >= 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub struct Ledger {
     /// Stored in the springs now.
     pub elastic: f64,
@@ -11,7 +12,7 @@ pub struct Ledger {
     pub friction: f64,
     /// Work of the nodes' forces on their drops (Eqs. 21, 22).
     pub wear: f64,
-    /// Dissipated by damping.
+    /// Dissipated by the damping of loads and by the dashpots of surfaces with a restitution.
     pub damping: f64,
     /// Done by gravity, loads and drives.
     pub external_work: f64,

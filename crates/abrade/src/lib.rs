@@ -13,6 +13,7 @@ mod column;
 mod column_law;
 mod columns;
 mod contact;
+mod damping;
 mod drive;
 mod elastic;
 mod encounter;
@@ -39,6 +40,8 @@ mod query;
 mod rotation;
 mod sag;
 mod shape;
+#[cfg(feature = "state")]
+mod state;
 mod surface;
 mod sweep;
 mod toll;

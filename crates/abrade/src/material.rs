@@ -6,6 +6,7 @@ use crate::error::ParameterError;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "state", derive(serde::Serialize))]
 pub struct Material {
     /// Hardness H [Pa]: the pressure at which a node flows down its normal (Eq. 7).
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::quantity::pressure"))]

@@ -9,12 +9,15 @@ use nalgebra::{Point3, Vector3};
 use crate::elastic::Elastic;
 use crate::flow::Flow;
 use crate::query::{Query, Touch};
+#[cfg(feature = "state")]
+use crate::state::finite;
 
 /// Cosine below which a face is too steep for a node to be pushed down by it.
 pub(crate) const STEEP: f64 = 0.05;
 
 /// What a node remembers of its contact from step to step.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Spring {
     /// Tangential stretch xi [m].
     pub stretch: Vector3<f64>,
@@ -44,6 +47,7 @@ impl Spring {
 
 /// Parts of a step's drop [m].
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Drop {
     pub normal: f64,
     pub lateral: f64,
@@ -260,4 +264,15 @@ fn transport(stretch: &Vector3<f64>, m: &Vector3<f64>) -> Vector3<f64> {
     let projected = stretch - m * stretch.dot(m);
     let (old, new) = (stretch.norm(), projected.norm());
     if new > 0.0 { projected * (old / new) } else { projected }
+}
+
+#[cfg(feature = "state")]
+impl Spring {
+    pub(crate) fn is_finite(&self) -> bool {
+        let Self { overlap, tangential_force, lateral_excess, normal_load, attack, .. } = self;
+        let Drop { normal, lateral } = &self.drop;
+        let numbers =
+            [overlap, tangential_force, lateral_excess, normal_load, attack, normal, lateral];
+        finite(numbers.into_iter().chain(self.stretch.iter())) && *overlap >= 0.0
+    }
 }

@@ -7,29 +7,40 @@ use nalgebra::Vector3;
 
 use crate::body::State;
 use crate::candidates::Candidates;
+use crate::damping::{Dashpots, Pressed, Shear, damping_ratio};
 use crate::elastic::{Elastic, Foundation, HertzNodes, coefficient};
 use crate::flight::time_to_close;
 use crate::flow::{CapozzaHanley, Eq5, Flow, NormalPressure, Projected};
 use crate::inner_loop::{InnerLoop, Reaction};
 use crate::laws::{ElasticLaw, FlowLaw, Lateral};
-use crate::node_law::{Motion, Spring};
-use crate::query::{BodyQuery, Contactor, Query};
+use crate::material::Material;
+use crate::node_law::{Motion, STEEP, Spring};
+use crate::query::{BodyQuery, Contactor, Query, Touch};
 use crate::shape::Shape;
+#[cfg(feature = "state")]
+use crate::state::{Fault, not_negative, positive, require};
 use crate::surface::{Surface, SurfaceLaws};
 
 /// Springs between one body and one surface.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "state", serde(remote = "Self"))]
 pub(crate) struct Patch {
     query: BodyQuery,
     inflation: f64,
     yield_overlap: f64,
     keeps_ledger: bool,
+    /// zeta of the dashpots; zero without them.
+    damping_ratio: f64,
     candidates: Candidates,
     /// Springs at the start of the step and at its trial end, one per candidate.
     old: Vec<Spring>,
+    #[cfg_attr(feature = "state", serde(skip))]
     new: Vec<Spring>,
+    #[cfg_attr(feature = "state", serde(skip))]
     carried: Vec<(u32, Spring)>,
     /// Of the last trial.
+    #[cfg_attr(feature = "state", serde(skip))]
     reaction: Reaction,
 }
 
@@ -47,6 +58,7 @@ impl Patch {
             inflation,
             yield_overlap: yield_overlap(&contactors, surface),
             keeps_ledger,
+            damping_ratio: damping_ratio(laws.restitution),
             candidates: Candidates::default(),
             old: Vec::new(),
             new: Vec::new(),
@@ -63,6 +75,10 @@ impl Patch {
     /// Smallest overlap at which a node yields [m].
     pub(crate) fn yield_overlap(&self) -> f64 {
         self.yield_overlap
+    }
+
+    pub(crate) fn damping_ratio(&self) -> f64 {
+        self.damping_ratio
     }
 
     /// Makes sure that the candidates cover the body at `state`; `margin` [m] is the reach of a
@@ -206,6 +222,66 @@ impl Patch {
         }
     }
 
+    /// Hands over every spring that the last trial pressed or let go.
+    pub(crate) fn press(&self, laws: &SurfaceLaws, dashpots: &mut Dashpots) {
+        let material = &laws.material;
+        let poisson = material.poisson;
+        let foundation = Foundation::new(poisson);
+        let hertz = HertzNodes::new(poisson);
+        match (&laws.elastic, &self.query) {
+            (ElasticLaw::HertzNodes { .. }, BodyQuery::Ball(query)) => {
+                self.press_with(hertz, query, material, dashpots);
+            }
+            (ElasticLaw::HertzNodes { .. }, BodyQuery::Clump(query)) => {
+                self.press_with(hertz, query, material, dashpots);
+            }
+            (_, BodyQuery::Ball(query)) => self.press_with(foundation, query, material, dashpots),
+            (_, BodyQuery::Clump(query)) => self.press_with(foundation, query, material, dashpots),
+        }
+    }
+
+    fn press_with<E: Elastic, Q: Query>(
+        &self,
+        elastic: E,
+        query: &Q,
+        &Material { hardness, friction, .. }: &Material,
+        dashpots: &mut Dashpots,
+    ) {
+        for (slot, (old, new)) in self.candidates.slots.iter().zip(self.old.iter().zip(&self.new)) {
+            let overlaps = [old.overlap, new.overlap];
+            if overlaps == [0.0; 2] {
+                continue;
+            }
+            let x = slot.x - slot.n * (new.drop.normal + new.drop.lateral);
+            let touch = query.touch(&x, &slot.n);
+            let cosine = -touch.contact_normal.dot(&slot.n);
+            let [before, after] =
+                overlaps.map(|d| elastic.normal_force(touch.coefficient, d, slot.area));
+            let stored = overlaps.map(|d| elastic.normal_energy(touch.coefficient, d, slot.area));
+            dashpots.add(Pressed {
+                normal: touch.contact_normal,
+                arm: touch.arm,
+                cosine,
+                // A contact of a part of the step has the force that does the spring's work.
+                force: match overlaps {
+                    [0.0, overlap] => stored[1] / overlap,
+                    [overlap, 0.0] => stored[0] / overlap,
+                    _ => 0.5 * (before + after),
+                },
+                advance: new.overlap - old.overlap,
+                cap: slot.area * hardness / cosine.max(STEEP),
+                stored,
+                stiffness: elastic.normal_stiffness(touch.coefficient, new.overlap, slot.area),
+                shear: shear(elastic, &touch, slot.area, [old, new], friction),
+            });
+        }
+    }
+
+    /// Counts the dashpots' `normal_load` [N] in the last trial.
+    pub(crate) fn add_load(&mut self, normal_load: f64) {
+        self.reaction.normal_load += normal_load;
+    }
+
     /// Makes the last trial the state: nodes sink, springs step on.
     pub(crate) fn commit(&mut self, surface: &mut Surface) {
         for (slot, spring) in self.candidates.slots.iter_mut().zip(&self.new) {
@@ -224,6 +300,32 @@ impl Patch {
         worn.peak_normal_force = worn.peak_normal_force.max(reaction.normal_load);
         worn.peak_touching = worn.peak_touching.max(reaction.touching);
         worn.indented_area = worn.indented_area.max(reaction.normal_flow_area);
+    }
+}
+
+/// Share of friction's limit above which a tangential spring slips, to round-off.
+const SLIPS: f64 = 1.0 - 1e-9;
+
+/// The tangential spring of a node over a step. One that was touched, let go or slips has no
+/// dashpot: its change is not that of the body's way.
+fn shear<E: Elastic>(
+    elastic: E,
+    touch: &Touch,
+    area: f64,
+    [old, new]: [&Spring; 2],
+    friction: f64,
+) -> Shear {
+    let limit = friction * elastic.normal_force(touch.coefficient, new.overlap, area);
+    if old.overlap == 0.0 || new.overlap == 0.0 || new.tangential_force >= SLIPS * limit {
+        return Shear::default();
+    }
+    let overlap = 0.5 * (old.overlap + new.overlap);
+    let stiffness = elastic.tangential_stiffness(touch.coefficient, overlap, area);
+    Shear {
+        force: (old.stretch + new.stretch) * (0.5 * stiffness),
+        limit,
+        stiffness,
+        advance: new.stretch - old.stretch,
     }
 }
 
@@ -246,4 +348,24 @@ fn yield_overlap(contactors: &[Contactor], surface: &Surface) -> f64 {
         }
     };
     contactors.iter().map(of).fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(feature = "state")]
+impl Patch {
+    pub(crate) fn checked(mut self) -> Result<Self, Fault> {
+        let lengths = not_negative(self.inflation) && positive(self.yield_overlap);
+        require(lengths && not_negative(self.damping_ratio), "a patch is out of range")?;
+        self.query.check()?;
+        self.candidates.check()?;
+        let count = self.candidates.slots.len();
+        require(self.old.len() == count, "springs and candidates differ in number")?;
+        require(self.old.iter().all(Spring::is_finite), "a spring is not finite")?;
+        self.new.resize(count, Spring::default());
+        Ok(self)
+    }
+
+    /// True when every candidate is one of `nodes`.
+    pub(crate) fn lies_on(&self, nodes: usize) -> bool {
+        self.candidates.lie_on(nodes)
+    }
 }

@@ -8,6 +8,7 @@ use crate::sweep::Entry;
 
 /// Energy per volume that a face pays.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Price {
     pub hardness: f64,
     /// mu_a H [Pa] for `CapozzaHanley`; None for `NormalPressure`.

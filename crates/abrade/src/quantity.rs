@@ -2,6 +2,7 @@
 //!
 //! One table of units, one function per dimension for `#[serde(deserialize_with)]`, and tuples of
 //! such numbers. A bare number is in SI (angles in radians); a quoted one must carry its unit.
+//! Binary formats hold bare numbers.
 //! Messages have the form `what is wrong; what was expected`, with `; did you mean ..?` after it
 //! where only the case of a unit is wrong.
 
@@ -9,6 +10,7 @@ use std::borrow::Cow;
 use std::fmt;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error, SeqAccess, Visitor};
 
 /// Stands for a dimensioned number in JSON schemas: a number in SI units, or a quoted one with a
@@ -57,7 +59,11 @@ macro_rules! dimensions {
             /// # Errors
             /// Not a number, not finite, no unit, a unit of something else.
             pub fn $optional<'de, D: Deserializer<'de>>(d: D) -> Result<Option<f64>, D::Error> {
-                $constant.deserialize(d).map(Some)
+                if d.is_human_readable() {
+                    $constant.deserialize(d).map(Some)
+                } else {
+                    Option::deserialize(d)
+                }
             }
         )+
     };
@@ -185,7 +191,7 @@ impl<'de> DeserializeSeed<'de> for Dimension {
     type Value = f64;
 
     fn deserialize<D: Deserializer<'de>>(self, d: D) -> Result<f64, D::Error> {
-        d.deserialize_any(Number(self))
+        if d.is_human_readable() { d.deserialize_any(Number(self)) } else { f64::deserialize(d) }
     }
 }
 

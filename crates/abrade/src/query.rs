@@ -5,6 +5,8 @@ use nalgebra::{Point3, Vector3};
 use crate::body::State;
 use crate::clump_query::ClumpQuery;
 use crate::shape::{Ball, Piece};
+#[cfg(feature = "state")]
+use crate::state::{Fault, finite, positive, require};
 
 /// A node against the piece that carves it.
 #[derive(Clone, Copy, Debug)]
@@ -42,6 +44,7 @@ pub(crate) struct Contactor {
 
 /// The query of a whole body: a ball alone has a fast path.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum BodyQuery {
     Ball(BallQuery),
     Clump(ClumpQuery),
@@ -49,11 +52,14 @@ pub(crate) enum BodyQuery {
 
 /// A single ball.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct BallQuery {
     ball: Ball,
     coefficient: f64,
     inflated: f64,
+    #[cfg_attr(feature = "state", serde(skip))]
     centre: Point3<f64>,
+    #[cfg_attr(feature = "state", serde(skip))]
     offset: Vector3<f64>,
 }
 
@@ -114,5 +120,24 @@ impl Query for BallQuery {
     #[inline(always)]
     fn near(&self, x: &Point3<f64>) -> bool {
         (x - self.centre).norm_squared() < self.inflated * self.inflated
+    }
+}
+
+#[cfg(feature = "state")]
+impl BodyQuery {
+    pub(crate) fn check(&self) -> Result<(), Fault> {
+        match self {
+            Self::Ball(ball) => ball.check(),
+            Self::Clump(clump) => clump.check(),
+        }
+    }
+}
+
+#[cfg(feature = "state")]
+impl BallQuery {
+    pub(crate) fn check(&self) -> Result<(), Fault> {
+        let sizes = [self.ball.radius, self.inflated, self.coefficient];
+        let fine = sizes.into_iter().all(positive) && finite(self.ball.centre.coords.iter());
+        require(fine, "a ball in contact is out of range")
     }
 }

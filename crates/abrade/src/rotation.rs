@@ -4,6 +4,8 @@
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use crate::body::{Inertia, State};
+#[cfg(feature = "state")]
+use crate::state::{Fault, finite, positive, require};
 
 /// Relative spread of the principal moments below which a body turns like a ball.
 const ISOTROPIC: f64 = 1e-12;
@@ -15,6 +17,7 @@ const TURN_STEPS: f64 = 1e5;
 
 /// Mass and inertia prepared for stepping.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Dynamics {
     pub inverse_mass: f64,
     tensor: Matrix3<f64>,
@@ -132,6 +135,16 @@ impl Dynamics {
         state.rotation = UnitQuaternion::from_scaled_axis(spin * dt) * state.rotation;
         state.rotation.renormalize();
         state.spin = state.rotation * (middle * 2.0 - before);
+    }
+}
+
+#[cfg(feature = "state")]
+impl Dynamics {
+    pub(crate) fn check(&self) -> Result<(), Fault> {
+        let guide = self.guide.unwrap_or_default();
+        let numbers = self.tensor.iter().chain(self.inverse.iter()).chain(guide.iter());
+        let fine = positive(self.inverse_mass) && finite(numbers);
+        require(fine, "a mass or inertia in contact is out of range")
     }
 }
 

@@ -8,6 +8,8 @@ use crate::hull::Hull;
 
 /// A union of convex pieces about the centre of mass.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "state", serde(try_from = "Vec<Piece>", into = "Vec<Piece>"))]
 pub struct Shape {
     pieces: Vec<Piece>,
     bounding_radius: f64,
@@ -15,6 +17,7 @@ pub struct Shape {
 
 /// A convex piece of a shape.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub enum Piece {
     /// A ball.
     Ball(Ball),
@@ -24,6 +27,7 @@ pub enum Piece {
 
 /// A ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub struct Ball {
     /// Centre [m].
     pub centre: Point3<f64>,
@@ -106,5 +110,21 @@ impl Piece {
                 hull.vertices().iter().map(|v| v.coords.dot(up)).fold(f64::INFINITY, f64::min)
             }
         }
+    }
+}
+
+#[cfg(feature = "state")]
+impl TryFrom<Vec<Piece>> for Shape {
+    type Error = ShapeError;
+
+    fn try_from(pieces: Vec<Piece>) -> Result<Self, ShapeError> {
+        Self::union(pieces)
+    }
+}
+
+#[cfg(feature = "state")]
+impl From<Shape> for Vec<Piece> {
+    fn from(shape: Shape) -> Self {
+        shape.pieces
     }
 }

@@ -4,15 +4,18 @@ use nalgebra::{Point3, Vector3};
 
 use crate::error::{ParameterError, SurfaceError};
 use crate::grid::Grid;
-use crate::laws::{ElasticLaw, FlowLaw, Removal};
+use crate::laws::{ElasticLaw, FlowLaw, Lateral, Removal};
 use crate::material::Material;
 use crate::nodes::Nodes;
+#[cfg(feature = "state")]
+use crate::state::{Fault, finite, not_negative, positive, require};
 
 /// Nodes a surface may have: indices are 32 bits wide, and a node takes about 90 bytes.
 pub const NODE_LIMIT: f64 = 2e8;
 
 /// The laws a surface obeys.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub struct SurfaceLaws {
     /// What it is made of.
     pub material: Material,
@@ -22,6 +25,10 @@ pub struct SurfaceLaws {
     pub flow: FlowLaw,
     /// Which part of the displaced volume is debris.
     pub removal: Removal,
+    /// Coefficient of restitution of an impact below yield [-], from 0.01 to 1: no damping. Above
+    /// yield dashpots still take their part while nodes load and unload, up to the cap of the flow
+    /// law: less wear and less rebound. `Rigid` has no springs to damp.
+    pub restitution: f64,
 }
 
 /// A flat strip of nodes in close-packed rows along y.
@@ -39,6 +46,7 @@ pub struct HexStrip {
 
 /// Volumes worn off a surface [m3], and its largest load.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub struct Worn {
     /// Displaced by the normal flow.
     pub normal: f64,
@@ -60,6 +68,8 @@ pub struct Worn {
 
 /// A surface that wears. Its frame has its origin at the node nearest its middle.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "state", serde(try_from = "SurfaceState", into = "SurfaceState"))]
 pub struct Surface {
     pub(crate) nodes: Nodes,
     pub(crate) laws: SurfaceLaws,
@@ -101,21 +111,30 @@ impl HexStrip {
             .chain(area)
             .collect()
     }
-
-    /// Undeformed positions about the node nearest the middle, column by column.
-    fn positions(&self, [columns, rows]: [usize; 2]) -> Vec<Point3<f64>> {
-        let across = self.pitch * 0.75f64.sqrt();
-        let site = |column: usize, row: usize| {
-            let shift = 0.5 * (column % 2) as f64;
-            Point3::new(column as f64 * across, (row as f64 + shift) * self.pitch, 0.0)
-        };
-        let middle = site((columns - 1) / 2, (rows - 1) / 2).coords;
-        let rows_of = |column| (0..rows).map(move |row| site(column, row) - middle);
-        (0..columns).flat_map(rows_of).collect()
-    }
 }
 
+/// Restitution below which a surface is refused: the body would take some 1/restitution times as
+/// long to leave as it took to come.
+const LEAST_RESTITUTION: f64 = 0.01;
+
 impl SurfaceLaws {
+    /// The laws that hold unless others are chosen: a calibrated `Foundation`, `CapozzaHanley`
+    /// with `Projected`, all of the volume removed, no damping.
+    pub fn of(material: Material) -> Self {
+        Self {
+            material,
+            elastic: ElasticLaw::Foundation { stiffness: None },
+            flow: FlowLaw::CapozzaHanley { lateral: Lateral::Projected },
+            removal: Removal::All,
+            restitution: 1.0,
+        }
+    }
+
+    /// An error unless `restitution` is one that a surface can have.
+    pub fn check_restitution(restitution: f64) -> Option<ParameterError> {
+        ParameterError::within("restitution", restitution, LEAST_RESTITUTION, 1.0)
+    }
+
     /// Every value outside its range, and parameters that a law misses.
     pub fn check(&self) -> Vec<SurfaceError> {
         let mut found: Vec<SurfaceError> = self
@@ -124,6 +143,7 @@ impl SurfaceLaws {
             .into_iter()
             .chain(self.elastic.check())
             .chain(self.removal.check())
+            .chain(Self::check_restitution(self.restitution))
             .map(SurfaceError::from)
             .collect();
         let law = match self.elastic {
@@ -162,11 +182,16 @@ impl Surface {
             return Err(SurfaceError::TooManyNodes { nodes: columns * rows, limit: NODE_LIMIT });
         }
         let columns_rows = [columns as usize, rows as usize];
-        let rest_position = strip.positions(columns_rows);
-        let count = rest_position.len();
         let area = strip.rest_area.unwrap_or(0.75f64.sqrt() * strip.pitch * strip.pitch);
-        Ok(Self {
-            grid: Grid::new(&rest_position, 4.0 * strip.pitch),
+        Ok(Self::lattice(columns_rows, strip.pitch, area, laws))
+    }
+
+    /// A flat lattice of the given numbers of columns and rows, unworn.
+    fn lattice(columns_rows: [usize; 2], pitch: f64, area: f64, laws: SurfaceLaws) -> Self {
+        let rest_position = positions(columns_rows, pitch);
+        let count = rest_position.len();
+        Self {
+            grid: Grid::new(&rest_position, 4.0 * pitch),
             nodes: Nodes {
                 rest_position,
                 normal: vec![Vector3::z(); count],
@@ -177,8 +202,8 @@ impl Surface {
             worn: Worn::default(),
             level: Some(Vector3::z()),
             columns_rows,
-            pitch: strip.pitch,
-        })
+            pitch,
+        }
     }
 
     /// The nodes.
@@ -237,5 +262,65 @@ impl Surface {
             }
         }
         triangles
+    }
+}
+
+/// Undeformed positions about the node nearest the middle, column by column [m].
+fn positions([columns, rows]: [usize; 2], pitch: f64) -> Vec<Point3<f64>> {
+    let across = pitch * 0.75f64.sqrt();
+    let site = |column: usize, row: usize| {
+        let shift = 0.5 * (column % 2) as f64;
+        Point3::new(column as f64 * across, (row as f64 + shift) * pitch, 0.0)
+    };
+    let middle = site((columns - 1) / 2, (rows - 1) / 2).coords;
+    let rows_of = |column| (0..rows).map(move |row| site(column, row) - middle);
+    (0..columns).flat_map(rows_of).collect()
+}
+
+/// A surface as bytes hold it: its lattice is laid out anew.
+#[cfg(feature = "state")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct SurfaceState {
+    columns_rows: [usize; 2],
+    pitch: f64,
+    area: f64,
+    laws: SurfaceLaws,
+    worn: Worn,
+    depth: Vec<f64>,
+}
+
+#[cfg(feature = "state")]
+impl From<Surface> for SurfaceState {
+    fn from(surface: Surface) -> Self {
+        Self {
+            columns_rows: surface.columns_rows,
+            pitch: surface.pitch,
+            area: surface.nodes.rest_area[0],
+            laws: surface.laws,
+            worn: surface.worn,
+            depth: surface.nodes.depth,
+        }
+    }
+}
+
+#[cfg(feature = "state")]
+impl TryFrom<SurfaceState> for Surface {
+    type Error = Fault;
+
+    fn try_from(state: SurfaceState) -> Result<Self, Fault> {
+        let SurfaceState { columns_rows, pitch, area, laws, worn, depth } = state;
+        let [columns, rows] = columns_rows;
+        let count = columns.checked_mul(rows);
+        require(count == Some(depth.len()) && count != Some(0), "a surface lacks nodes")?;
+        let extent = pitch * columns.max(rows) as f64;
+        let fine = positive(pitch) && positive(area) && extent.is_finite();
+        require(fine && laws.check().is_empty(), "a surface or its laws are out of range")?;
+        let worn_fine = finite(&[worn.normal, worn.lateral, worn.chip, worn.removed]);
+        let fine = worn_fine && depth.iter().all(|&depth| not_negative(depth));
+        require(fine, "a depth is below zero or not finite")?;
+        let mut surface = Self::lattice(columns_rows, pitch, area, laws);
+        surface.worn = worn;
+        surface.nodes.depth = depth;
+        Ok(surface)
     }
 }

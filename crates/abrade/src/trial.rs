@@ -12,6 +12,8 @@ use crate::ledger::Ledger;
 use crate::node_law::Motion;
 use crate::projection::{balance, pay};
 use crate::rotation::Dynamics;
+#[cfg(feature = "state")]
+use crate::state::finite;
 use crate::toll::{Push, Toll};
 
 /// Largest predicted change of the speed by columns without springs, as a share of it.
@@ -19,6 +21,7 @@ const PREDICTION: f64 = 0.1;
 
 /// What contacts do to a body at an instant.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Pull {
     /// Force [N] and torque [N m] of all contacts.
     pub force: Vector3<f64>,
@@ -43,8 +46,8 @@ pub(crate) struct Course {
 /// A step that may be rejected.
 #[derive(Clone, Debug)]
 pub(crate) struct Trial {
-    state: State,
-    dt: f64,
+    pub state: State,
+    pub dt: f64,
     /// Displacement [m] and turn [rad] of the step.
     pub shift: Vector3<f64>,
     pub turn: Vector3<f64>,
@@ -127,7 +130,11 @@ impl Integrator {
         state.spin += kicked.spin - predicted;
         // In flight nothing can be touched, so nothing is asked.
         let surfaces = if flight { &[] } else { surfaces };
-        self.ask(body, surfaces, &state, Course { velocity, spin, dt })
+        let trial = self.ask(body, surfaces, &state, Course { velocity, spin, dt });
+        if self.is_damped {
+            self.damp(surfaces, &trial);
+        }
+        trial
     }
 
     /// Asks every contact about a step that ends at `state`.
@@ -178,17 +185,21 @@ impl Integrator {
         trial
     }
 
-    /// Change of velocity and spin over `half` a step that the columns' last mean force predicts.
-    /// It places the step's end, nothing else: the balance does not use it. Without springs a
+    /// Change of velocity and spin over `half` a step that the last mean force of columns and
+    /// dashpots predicts. It places the step's end, nothing else: the balance does not use it. Without springs a
     /// blocked body's last force says nothing, so the prediction stays small; and a body whose
     /// moments differ keeps its spin, whose free turning must keep the energy.
     fn swept_prediction(&self, body: &Body, half: f64) -> (Vector3<f64>, Vector3<f64>) {
         let pull = &self.pull;
+        if self.is_damped && !self.touching {
+            // The last step let go: what its dashpots did says nothing of a flight.
+            return Default::default();
+        }
         let force = pull.force - pull.spring_force;
         let torque = pull.torque - pull.spring_torque;
         let velocity = self.dynamics.accelerate(&(force * half));
         let spin = self.dynamics.turn(&body.state.rotation, &(torque * half));
-        if self.has_sprung_columns() {
+        if self.is_damped || self.has_sprung_columns() {
             return (velocity, spin);
         }
         let spin = if self.dynamics.is_isotropic() { spin } else { Vector3::zeros() };
@@ -236,6 +247,11 @@ impl Integrator {
             state.velocity += self.dynamics.accelerate(&push.impulse);
             state.spin += self.dynamics.turn(&state.rotation, &push.torque);
         };
+        // The dashpots in halves around the springs: work at the mean velocity of the step.
+        let half = self.is_damped.then(|| self.damping.half());
+        if let Some(half) = &half {
+            apply(half, &mut state);
+        }
         let cost = toll.spring.friction + toll.elastic + toll.lost + self.short;
         let (scale, short) = balance(&toll.spring, cost, &state, &self.dynamics);
         let sprung_push = toll.spring.scaled(scale);
@@ -244,8 +260,13 @@ impl Integrator {
         let payment = pay(&toll.flow, cost, &state, &self.dynamics);
         let flow_push = toll.flow.scaled(payment.scale);
         apply(&flow_push, &mut state);
-        let impulse = sprung_push.impulse + flow_push.impulse;
-        let torque = sprung_push.torque + flow_push.torque;
+        let mut impulse = sprung_push.impulse + flow_push.impulse;
+        let mut torque = sprung_push.torque + flow_push.torque;
+        if let Some(half) = &half {
+            apply(half, &mut state);
+            impulse += self.damping.impulse;
+            torque += self.damping.torque;
+        }
         self.short = short;
         let (elastic, push) = self.commit(surfaces, trial, payment.share);
         let pull = Pull {
@@ -260,6 +281,7 @@ impl Integrator {
             friction: springs.ledger.friction
                 + toll.spring.friction
                 + toll.flow.friction * payment.share,
+            damping: half.map_or(0.0, |_| self.damping.dissipated),
             wear: springs.ledger.wear + toll.wear * payment.share,
             history: springs.ledger.history + toll.lost,
             ..Ledger::default()
@@ -322,5 +344,14 @@ impl Integrator {
         };
         self.touching = trial.touching > 0;
         self.next_dt = self.eta / trial.omega(&self.dynamics);
+    }
+}
+
+#[cfg(feature = "state")]
+impl Pull {
+    pub(crate) fn is_finite(&self) -> bool {
+        let Self { force, torque, spring_force, spring_torque, push } = self;
+        let parts = [force, torque, spring_force, spring_torque, push];
+        parts.iter().all(|part| finite(part.iter()))
     }
 }

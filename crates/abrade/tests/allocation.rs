@@ -74,7 +74,7 @@ fn allocations(shape: Shape, elastic: ElasticLaw, flow: FlowLaw, removal: Remova
         ElasticLaw::HertzNodes { node_radius, .. } => node_radius,
         _ => 0.0,
     };
-    let laws = SurfaceLaws { material, elastic, flow, removal };
+    let laws = SurfaceLaws { elastic, flow, removal, ..SurfaceLaws::of(material) };
     let strip = HexStrip { length: 8.0, width: 3.0, pitch: PITCH, rest_area: None };
     let mut surface = Surface::hex_strip(strip, laws).expect("a plate");
     let rotation = UnitQuaternion::from_scaled_axis(Vector3::new(0.3, 0.5, 0.2));

@@ -58,6 +58,15 @@ fn table() {
 #[test]
 #[ignore]
 fn trace() {
-    let case = Case { dt: 1e-3, origin: Vector3::zeros(), resolve: Resolve::Auto, accuracy: 1e-3 };
-    rows::loaded_ball(case);
+    let dt = std::env::var("DT").map_or(1e-3, |dt| dt.parse().expect("a number"));
+    let resolve = match std::env::var("RES").as_deref() {
+        Ok("L") => Resolve::Lockstep,
+        Ok("Q") => Resolve::QuasiStatic,
+        _ => Resolve::Auto,
+    };
+    let case = Case { dt, origin: Vector3::zeros(), resolve, accuracy: 1e-3 };
+    let only = std::env::var("ROW").unwrap_or_default();
+    for (_, row) in ROWS.iter().filter(|(name, _)| name.contains(&only)) {
+        row(case);
+    }
 }

@@ -2,8 +2,8 @@
 //! default foundation.
 
 use crate::plugin::abrade::{
-    Advance, Body, ElasticLaw, Encounter, EncounterSettings, FlowLaw, HexStrip, Inertia, Lateral,
-    Loads, Material, Placed, Removal, Shape, State, Surface, SurfaceLaws, Until,
+    Advance, Body, Encounter, EncounterSettings, HexStrip, Inertia, Loads, Material, Placed, Shape,
+    State, Surface, SurfaceLaws, Until,
 };
 use crate::plugin::rapier::math::Vector;
 use crate::plugin::rapier::prelude::*;
@@ -35,12 +35,7 @@ pub fn surface() -> Surface {
         poisson: 0.3,
         friction: 0.5,
     };
-    let laws = SurfaceLaws {
-        material,
-        elastic: ElasticLaw::Foundation { stiffness: None },
-        flow: FlowLaw::CapozzaHanley { lateral: Lateral::Projected },
-        removal: Removal::All,
-    };
+    let laws = SurfaceLaws::of(material);
     let strip = HexStrip { length: 30e-3, width: 12e-3, pitch: 0.1e-3, rest_area: None };
     Surface::hex_strip(strip, laws).expect("a plate")
 }

@@ -73,6 +73,11 @@ impl Checker<'_> {
         self.ranges(&path.join("elastic"), errors.into_iter().map(Some));
         let errors = surface.removal.check();
         self.ranges(&path.join("removal"), errors.into_iter().map(Some));
+        self.ranges(path, [SurfaceLaws::check_restitution(surface.restitution)]);
+        if surface.elastic == ElasticLaw::Rigid && surface.restitution != 1.0 {
+            let message = "`restitution` is that of springs".to_owned();
+            self.refuse(&path.join("restitution"), message, "`Rigid` has none");
+        }
         let Some(material) = self.scene.materials.get(&surface.material) else {
             let known: Vec<&str> = self.scene.materials.keys().map(String::as_str).collect();
             let name = &surface.material;
@@ -83,6 +88,7 @@ impl Checker<'_> {
             elastic: surface.elastic.clone(),
             flow: surface.flow.clone(),
             removal: surface.removal.clone(),
+            restitution: surface.restitution,
         };
         let literal = surface.flow == FlowLaw::CapozzaHanley { lateral: Lateral::Eq5 };
         if literal && surface.elastic == ElasticLaw::Rigid {

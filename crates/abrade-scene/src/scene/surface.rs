@@ -27,6 +27,10 @@ pub struct SceneSurface {
     /// Which part of the displaced volume leaves as debris (default `All`).
     #[serde(default)]
     pub removal: Removal,
+    /// Coefficient of restitution of an impact below yield [-], from 0.01 to 1; what a body needs
+    /// to come to rest (default 1: no damping).
+    #[serde(default = "undamped")]
+    pub restitution: f64,
     /// Where the origin of the surface's frame lies in the world [m].
     #[serde(default, deserialize_with = "vectors::length3")]
     #[schemars(with = "[Quantity; 3]")]
@@ -94,6 +98,10 @@ pub enum SurfaceMotion {
 
 fn default_flow() -> FlowLaw {
     FlowLaw::CapozzaHanley { lateral: Lateral::Projected }
+}
+
+fn undamped() -> f64 {
+    1.0
 }
 
 fn default_elastic() -> ElasticLaw {

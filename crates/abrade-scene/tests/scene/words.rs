@@ -49,6 +49,7 @@ fn what_a_scene_leaves_out_has_the_stated_default() {
     assert_eq!(surface.flow, FlowLaw::CapozzaHanley { lateral: Lateral::Projected });
     assert_eq!(surface.elastic, ElasticLaw::Foundation { stiffness: None });
     assert_eq!((&surface.motion, &surface.removal), (&SurfaceMotion::Fixed, &Removal::All));
+    assert_eq!(surface.restitution, 1.0);
     let body = &scene.bodies["b"];
     assert_eq!(body.motion, Motion::Free { velocity: [0.0; 3], spin: [0.0; 3] });
     let own = OnSurfaceDefaults { at: [0.0, 0.0], gap: 0.0 };
@@ -171,4 +172,18 @@ fn a_drive_must_be_able_to_move() {
     assert!(drive("distance: 1").contains("slides a distance at no speed"));
     assert!(drive("distance: 1, speed: 1, rate_over: 2").contains("longer than the path"));
     assert!(drive("mass: -1").contains("`bodies.ball.motion.mass` is out of range"));
+}
+
+#[test]
+fn a_restitution_is_one_that_springs_can_have() {
+    let with = |text: &str| format!("surfaces.plate.restitution={text}");
+    let scene = checked(&[&with("0.4")]);
+    assert_eq!(scene.build().unwrap().surfaces["plate"].surface.laws().restitution, 0.4);
+    for outside in ["0", "-0.5", "1.01"] {
+        let refusal = refusal(&[&with(outside)]);
+        let wanted = "`surfaces.plate.restitution` is out of range";
+        assert!(refusal.contains(wanted), "{outside}: {refusal}");
+    }
+    let refusal = refusal(&[&with("0.5"), "surfaces.plate.elastic=Rigid"]);
+    assert!(refusal.contains("`Rigid` has none"), "{refusal}");
 }

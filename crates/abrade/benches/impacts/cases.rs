@@ -3,8 +3,8 @@
 
 use abrade::{
     Advance, Ball, Body, ElasticLaw, Encounter, EncounterSettings, FlowLaw, HertzConvention,
-    HexStrip, Hull, Inertia, Lateral, Loads, Material, Piece, Placed, Polyhedron, Removal, Shape,
-    State, Surface, SurfaceLaws, Until,
+    HexStrip, Hull, Inertia, Lateral, Loads, Material, Piece, Placed, Polyhedron, Shape, State,
+    Surface, SurfaceLaws, Until,
 };
 use nalgebra::{Isometry3, Matrix3, Point3, UnitQuaternion, Vector3};
 
@@ -158,7 +158,7 @@ pub fn paper(
         name: format!("{name} {angle} deg"),
         body,
         strip,
-        laws: SurfaceLaws { material, elastic, flow, removal: Removal::All },
+        laws: SurfaceLaws { elastic, flow, ..SurfaceLaws::of(material) },
         settings: EncounterSettings { accuracy: 3e-3, ..Default::default() },
         at: [0.173662e-3, 0.300792e-3],
         apart: 1.6e-3,
@@ -175,8 +175,8 @@ pub fn unit(name: &str, shape: Shape, inertia: Inertia, elastic: ElasticLaw, pit
         poisson: 0.3,
         friction: 0.0,
     };
-    let laws =
-        SurfaceLaws { material, elastic, flow: FlowLaw::NormalPressure {}, removal: Removal::All };
+    let flow = FlowLaw::NormalPressure {};
+    let laws = SurfaceLaws { elastic, flow, ..SurfaceLaws::of(material) };
     Case {
         name: name.into(),
         body: fired(shape, inertia, rotation, 30.0, 1.0, 0.0),
