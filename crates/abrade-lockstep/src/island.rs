@@ -9,6 +9,7 @@ use rapier::pipeline::{ActiveHooks, PhysicsWorld};
 use crate::calm::normal_speed;
 use crate::convert::{state, to_vector};
 use crate::filter::Filter;
+use crate::pairs::Pairs;
 use crate::parameters::{refine, refine_joint};
 use crate::rewind::Rewind;
 use crate::wearer::Wearer;
@@ -47,6 +48,7 @@ pub struct Island {
     /// Force and torque of the embedder on each dynamic body.
     loads: Vec<(RigidBodyHandle, Vector, Vector)>,
     filter: Filter,
+    pairs: Pairs,
     rewind: Rewind,
     settings: IslandSettings,
     /// Mean force of the contacts at rest in the last step [N].
@@ -76,8 +78,10 @@ impl Island {
             rb.is_dynamic().then(|| (handle, rb.user_force(), rb.user_torque()))
         };
         let loads = world.bodies.iter().filter_map(loads).collect();
+        let pairs = Pairs::of(&world, &proxies);
         let filter = Filter::new(proxies);
-        Self { world, wearers, loads, filter, rewind: Rewind::default(), settings, rest_load: 0.0 }
+        let rewind = Rewind::default();
+        Self { world, wearers, loads, filter, pairs, rewind, settings, rest_load: 0.0 }
     }
 
     /// The world.
@@ -108,6 +112,7 @@ impl Island {
         while time < duration {
             let remaining = duration - time;
             let h = self.length(surfaces).min(self.turning()).min(coarsest).min(remaining);
+            let h = self.pairs.limit(h, &self.world);
             let taken = self.step(surfaces, h)?;
             time = if taken == remaining { duration } else { time + taken };
             done.steps += 1;

@@ -22,6 +22,7 @@ mod calm;
 mod convert;
 mod filter;
 mod island;
+mod pairs;
 mod parameters;
 mod rewind;
 mod wearer;

@@ -9,7 +9,7 @@ use rapier::dynamics::{GenericJoint, IntegrationParameters, SpringCoefficients};
 use rapier::math::Real;
 
 /// Rate at which errors of position decay [1/s].
-const DECAY: f64 = 60.0;
+const DECAY: f64 = 1.0;
 /// Damping ratio of the constraints: cfm ~ 1 / (4 ratio^2 rate h), nothing at any step.
 const DAMPING_RATIO: f64 = 1e9;
 

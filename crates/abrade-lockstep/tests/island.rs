@@ -19,14 +19,8 @@ fn plate(pitch: f64) -> Surface {
         poisson: 0.3,
         friction: 0.5,
     };
-    let laws = SurfaceLaws {
-        material,
-        elastic: ElasticLaw::Foundation { stiffness: None },
-        flow: FlowLaw::CapozzaHanley { lateral: Lateral::Projected },
-        removal: Removal::All,
-    };
     let strip = HexStrip { length: 30e-3, width: 12e-3, pitch, rest_area: None };
-    Surface::hex_strip(strip, laws).expect("a plate")
+    Surface::hex_strip(strip, SurfaceLaws::of(material)).expect("a plate")
 }
 
 fn fired(body: &mut Body, speed: f64, angle: f64) {

@@ -4,8 +4,8 @@
 use nalgebra::{Isometry3, Point3};
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{Aabb, Collider, ColliderHandle, ColliderSet};
-use rapier::math::Pose;
-use rapier::parry::query::intersection_test;
+use rapier::math::{Pose, Vector};
+use rapier::parry::query::{ShapeCastOptions, cast_shapes, intersection_test};
 use rapier::parry::shape::Cuboid;
 
 use crate::path::Extent;
@@ -62,6 +62,20 @@ impl Obstacles {
         for obstacle in self.list.iter_mut().filter(|o| o.body == Some(body)) {
             obstacle.extent = extent;
         }
+    }
+
+    /// True when another moving body comes to meet `body` in this step, faster than `limit` [m/s].
+    pub fn blow(&self, body: RigidBodyHandle, world: &WorldView<'_>, dt: f64, limit: f64) -> bool {
+        self.list.iter().filter(|o| o.body == Some(body)).any(|own| {
+            let Some(mine) = world.colliders.get(own.collider) else { return false };
+            let mut others = self.list.iter().filter(|o| o.moves && o.body != Some(body));
+            others.any(|other| {
+                other.extent.meets(&own.extent)
+                    && world.colliders.get(other.collider).is_some_and(|theirs| {
+                        interact(mine, theirs) && closes([mine, theirs], world, dt, limit)
+                    })
+            })
+        })
     }
 
     /// Shows everything but `body` itself that could meet one of its colliders in this step: the
@@ -123,6 +137,31 @@ impl Obstacle {
 fn cuboid(region: &Extent, frame: &Isometry3<f64>) -> (Pose, Cuboid) {
     let centre = Isometry3::from(nalgebra::center(&region.low, &region.high));
     (scalar::to_pose(&(frame * centre)), Cuboid::new(scalar::to_vector(&region.half())))
+}
+
+/// Do two colliders that are apart meet within `dt` [s], as their bodies move now, faster than
+/// `limit` [m/s]?
+fn closes(pair: [&Collider; 2], world: &WorldView<'_>, dt: f64, limit: f64) -> bool {
+    let velocity = |collider: &Collider| {
+        let body = collider.parent().and_then(|handle| world.bodies.get(handle));
+        body.map_or(Vector::ZERO, RigidBody::linvel)
+    };
+    let [a, b] = pair;
+    let (va, vb) = (velocity(a), velocity(b));
+    let relative = scalar::vector(va) - scalar::vector(vb);
+    if relative.norm() <= limit {
+        return false;
+    }
+    let options = ShapeCastOptions {
+        stop_at_penetration: false,
+        ..ShapeCastOptions::with_max_time_of_impact(scalar::narrow(dt))
+    };
+    let (place_a, place_b) = (a.position(), b.position());
+    let hit = cast_shapes(place_a, va, a.shape(), place_b, vb, b.shape(), options);
+    hit.ok().flatten().is_some_and(|hit| {
+        let normal = scalar::vector(place_a.rotation * hit.normal1);
+        hit.time_of_impact > scalar::narrow(0.0) && relative.dot(&normal) > limit
+    })
 }
 
 /// Would Rapier solve a contact between the two?

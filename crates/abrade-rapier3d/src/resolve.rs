@@ -11,6 +11,7 @@ use crate::error::WearError;
 use crate::event::{Refusal, WearEvent};
 use crate::gate::{self, Course, Way};
 use crate::held::Held;
+use crate::lockstep::gather;
 use crate::micro::Errand;
 use crate::observer::{Relay, WearObserver};
 use crate::path::Extent;
@@ -86,11 +87,23 @@ impl WearWorld {
         let rest_speed = gravity.norm() * scalar::wide(rb.gravity_scale()).abs() * self.current.dt;
         let surfaces = tracked.near.clone();
         let strike = self.strike(body, rb, &surfaces, &gravity);
-        let strikes = strike.is_some_and(|speed| speed > STRIKE * rest_speed);
+        let limit = STRIKE * rest_speed;
+        let strikes =
+            strike.is_some_and(|speed| speed > limit) || self.is_struck(body, world, limit);
         let tracked = Tracked::slot(&mut self.bodies, body);
         let first = self.surfaces[surfaces[0].0].surface.laws().material.friction;
         self.taken.add_held(body, tracked.friction.max(first));
         self.held.push(Held { body, surfaces, reason, strikes, rest_speed });
+    }
+
+    /// True when something comes to meet the body, or what hangs together with it, faster than
+    /// `limit` [m/s].
+    fn is_struck(&self, body: RigidBodyHandle, world: &WorldView<'_>, limit: f64) -> bool {
+        let (obstacles, dt) = (&self.obstacles, self.current.dt);
+        match gather(body, world, obstacles) {
+            Ok(members) => members.bodies.iter().any(|m| obstacles.blow(*m, world, dt, limit)),
+            Err(_) => obstacles.blow(body, world, dt, limit),
+        }
     }
 
     /// Speed with which the body comes down on a surface in this step, if it does [m/s].

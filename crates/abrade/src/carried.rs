@@ -11,6 +11,7 @@ use nalgebra::Vector3;
 
 use crate::body::{Body, State};
 use crate::contact::Contact;
+use crate::damping::Damping;
 use crate::encounter::{EncounterSettings, Loads, Placed};
 use crate::error::PhysicsError;
 use crate::integrate::{GROWTH, Integrator, engulfed, rejected};
@@ -23,6 +24,8 @@ use crate::trial::{Course, Trial};
 pub struct Carried {
     integrator: Integrator,
     pending: Option<Pending>,
+    /// Impulse of the last step's dashpots [N s] and its torque [N m s], which the next step gets.
+    owed: [Vector3<f64>; 2],
     /// Length of the last step, if it ended in contact [s].
     last: f64,
     evaluations: u64,
@@ -56,6 +59,7 @@ struct Pending {
     dt: f64,
     /// Step that the springs allow [s].
     allowed: f64,
+    damping: Damping,
 }
 
 impl Mul<f64> for Grip {
@@ -77,7 +81,14 @@ impl Carried {
         settings: EncounterSettings,
     ) -> Result<Self, PhysicsError> {
         let integrator = Integrator::new(body, surfaces, settings)?;
-        Ok(Self { integrator, pending: None, last: 0.0, evaluations: 0, period_over_tau: 0.0 })
+        Ok(Self {
+            integrator,
+            pending: None,
+            owed: Default::default(),
+            last: 0.0,
+            evaluations: 0,
+            period_over_tau: 0.0,
+        })
     }
 
     /// Largest overlap of a node with the body [m], surface by surface.
@@ -105,7 +116,9 @@ impl Carried {
         let columns = |contact: &Contact| matches!(contact, Contact::Columns(_));
         let share = if self.last > 0.0 { 0.5 * (self.last + dt) / dt } else { 1.0 };
         let pull = self.integrator.pull;
-        let springs = Grip { force: pull.spring_force, torque: pull.spring_torque } * share;
+        let mut springs = Grip { force: pull.spring_force, torque: pull.spring_torque } * share;
+        springs.force += self.owed[0] / dt;
+        springs.torque += self.owed[1] / dt;
         if !self.integrator.contacts.iter().any(columns) {
             return springs;
         }
@@ -139,9 +152,18 @@ impl Carried {
         if !trial.is_finite() {
             return Err(PhysicsError::NotFinite { time: dt });
         }
-        let allowed = self.integrator.eta / trial.omega(&self.integrator.dynamics);
+        let damping = match self.integrator.is_damped {
+            true => {
+                self.integrator.damp(surfaces, &trial);
+                self.integrator.damping
+            }
+            false => Damping::default(),
+        };
+        let omega = trial.omega(&self.integrator.dynamics).max(damping.rate);
+        let allowed = self.integrator.eta / omega;
         let shorter = rejected(&trial, dt, allowed);
-        self.pending = shorter.is_none().then_some(Pending { trial, end: *end, dt, allowed });
+        self.pending =
+            shorter.is_none().then_some(Pending { trial, end: *end, dt, allowed, damping });
         Ok(shorter.map_or(Met::Fits, Met::TooLong))
     }
 
@@ -154,8 +176,12 @@ impl Carried {
         body: &mut Body,
         surfaces: &mut [Placed<'_>],
     ) -> Result<(), PhysicsError> {
-        let Some(Pending { trial, end, dt, allowed }) = self.pending.take() else { return Ok(()) };
+        let Some(Pending { trial, end, dt, allowed, damping }) = self.pending.take() else {
+            return Ok(());
+        };
         let before = self.integrator.next_dt;
+        self.owed = [damping.impulse, damping.torque];
+        self.integrator.book_damping(damping.dissipated);
         self.last = if trial.touching > 0 { dt } else { 0.0 };
         if trial.touching > 0 {
             self.integrator.touched = true;

@@ -384,6 +384,13 @@ impl Integrator {
         separation(placed.surface, body, &local, contact.inflation())
     }
 
+    /// Books what dashpots of a led body dissipated [J].
+    pub(crate) fn book_damping(&mut self, dissipated: f64) {
+        if self.settings.ledger {
+            self.ledger.damping += dissipated;
+        }
+    }
+
     /// Books a step of a led body, in which the lead did `work` [J].
     pub(crate) fn book_lead(&mut self, elastic: f64, work: f64, springs: Ledger, toll: &Toll) {
         let ledger = &mut self.ledger;

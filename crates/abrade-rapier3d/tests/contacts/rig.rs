@@ -1,8 +1,6 @@
 //! A Rapier world with one wear plate, as an embedder sets it up.
 
-use crate::plugin::abrade::{
-    ElasticLaw, FlowLaw, HexStrip, Lateral, Material, Removal, Surface, SurfaceLaws,
-};
+use crate::plugin::abrade::{HexStrip, Material, Surface, SurfaceLaws};
 use crate::plugin::rapier::math::Vector;
 use crate::plugin::rapier::prelude::*;
 use crate::plugin::{Counters, Resolve, SurfaceId, WearSettings, WearWorld, scalar};
@@ -56,15 +54,9 @@ impl Plate {
             poisson: 0.3,
             friction: 0.3,
         };
-        let laws = SurfaceLaws {
-            material,
-            elastic: ElasticLaw::Foundation { stiffness: None },
-            flow: FlowLaw::CapozzaHanley { lateral: Lateral::Projected },
-            removal: Removal::All,
-        };
         let strip =
             HexStrip { length: self.length, width: self.width, pitch: self.pitch, rest_area: None };
-        Surface::hex_strip(strip, laws).expect("a plate")
+        Surface::hex_strip(strip, SurfaceLaws::of(material)).expect("a plate")
     }
 }
 

@@ -172,22 +172,23 @@ pub fn struck_stack(case: Case) -> Outcome {
     rig.outcome(ball)
 }
 
-/// A clump of three balls that rolls down an incline of 20 degrees.
+/// A clump of four balls of 20 mm that rolls down an incline of 30 degrees on soft ground.
 pub fn rolling_clump(case: Case) -> Outcome {
-    let plate = Plate { length: 0.3, width: 0.06, pitch: 0.5e-3, hardness: 1e6, young: 0.2e9 };
-    let (sin, cos) = 20f64.to_radians().sin_cos();
+    let plate = Plate { length: 1.0, width: 0.2, pitch: 1.5e-3, hardness: 50e3, young: 10e6 };
+    let (sin, cos) = 30f64.to_radians().sin_cos();
     let gravity = Vector3::new(GRAVITY * sin, 0.0, -GRAVITY * cos);
-    let mut rig = Rig::new(case, &plate, gravity, 0.01);
-    let parts = [[-4e-3, 0.0, 5e-3], [4e-3, 0.0, 5e-3], [0.0, 0.0, 8e-3]];
-    let body = rig.body(Vector3::new(-0.13, 0.0, 5e-3));
+    let mut rig = Rig::new(case, &plate, gravity, 0.05);
+    let parts = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
+    let body = rig.body(Vector3::new(-0.4, 0.0, 32e-3));
     let body = rig.world.insert_body(body);
-    for [x, y, z] in parts {
-        let ball = ColliderBuilder::ball(n(5e-3))
-            .translation(vector(x, y, z - 5e-3))
-            .density(n(2500.0))
+    for part in parts {
+        let at = Vector3::from(part) * 10e-3;
+        let ball = ColliderBuilder::ball(n(20e-3))
+            .translation(scalar::to_vector(&at))
+            .density(n(2000.0))
             .friction(n(0.3));
         rig.world.insert_collider(ball, Some(body));
     }
-    rig.run(0.3, |_| ());
+    rig.run(0.5, |_| ());
     rig.outcome(body)
 }

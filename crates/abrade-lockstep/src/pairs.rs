@@ -1,0 +1,81 @@
+//! Colliders of the island that may meet, wear contacts apart: no step may carry one past the
+//! other, or so close that Rapier's contacts do not see it coming.
+
+use rapier::dynamics::{RigidBody, RigidBodyHandle};
+use rapier::geometry::{Aabb, Collider, ColliderHandle};
+use rapier::pipeline::PhysicsWorld;
+
+/// The pairs of an island, found once.
+pub(crate) struct Pairs {
+    list: Vec<[ColliderHandle; 2]>,
+}
+
+impl Pairs {
+    /// Pairs of colliders of different bodies, of which one moves.
+    pub fn of(world: &PhysicsWorld, proxies: &[ColliderHandle]) -> Self {
+        let colliders: Vec<(ColliderHandle, &Collider)> =
+            world.colliders.iter().filter(|(handle, _)| !proxies.contains(handle)).collect();
+        let mut list = Vec::new();
+        for (at, (first, a)) in colliders.iter().enumerate() {
+            for (second, b) in &colliders[at + 1..] {
+                let moves = |c: &Collider| body(world, c.parent()).is_some_and(|b| !b.is_fixed());
+                let meet = a.collision_groups().test(b.collision_groups())
+                    && a.solver_groups().test(b.solver_groups())
+                    && a.parent() != b.parent()
+                    && (moves(a) || moves(b))
+                    && !linked(world, a.parent(), b.parent());
+                if meet {
+                    list.push([*first, *second]);
+                }
+            }
+        }
+        Self { list }
+    }
+
+    /// The longest step of at most `h` [s] in which Rapier sees every contact coming.
+    pub fn limit(&self, h: f64, world: &PhysicsWorld) -> f64 {
+        let sight = 0.5 * world.integration_parameters.prediction_distance();
+        let speeds = world.bodies.iter().map(|(_, rb)| rb.linvel().length());
+        if self.list.is_empty() || 2.0 * h * speeds.fold(0.0, f64::max) < sight {
+            return h;
+        }
+        let limit = |[first, second]: &[ColliderHandle; 2]| {
+            let [a, b] = [first, second].map(|handle| world.colliders.get(*handle));
+            let (Some(a), Some(b)) = (a, b) else { return h };
+            let (box_a, box_b) = (a.compute_aabb(), b.compute_aabb());
+            gap(&box_a, &box_b).max(sight) / approach(world, [a, b])
+        };
+        self.list.iter().map(limit).fold(h, f64::min)
+    }
+}
+
+fn body(world: &PhysicsWorld, handle: Option<RigidBodyHandle>) -> Option<&RigidBody> {
+    handle.and_then(|handle| world.bodies.get(handle))
+}
+
+/// True for bodies that a joint keeps from touching each other.
+fn linked(
+    world: &PhysicsWorld,
+    first: Option<RigidBodyHandle>,
+    second: Option<RigidBodyHandle>,
+) -> bool {
+    let (Some(first), Some(second)) = (first, second) else { return false };
+    let mut between = world.impulse_joints.joints_between(first, second);
+    between.any(|(_, joint)| !joint.data.contacts_enabled)
+}
+
+/// Distance of two boxes [m]; zero if they meet.
+fn gap(a: &Aabb, b: &Aabb) -> f64 {
+    let apart = (b.mins - a.maxs).max(a.mins - b.maxs);
+    apart.max(rapier::math::Vector::ZERO).length()
+}
+
+/// Bound of the speed at which two colliders near each other [m/s].
+fn approach(world: &PhysicsWorld, pair: [&Collider; 2]) -> f64 {
+    let [a, b] = pair.map(|c| (body(world, c.parent()), c.compute_aabb().half_extents().length()));
+    let velocity = |rb: Option<&RigidBody>| rb.map(RigidBody::linvel).unwrap_or_default();
+    let turning = |(rb, radius): (Option<&RigidBody>, f64)| {
+        rb.map_or(0.0, |rb| rb.angvel().length() * radius)
+    };
+    (velocity(a.0) - velocity(b.0)).length() + turning(a) + turning(b)
+}
