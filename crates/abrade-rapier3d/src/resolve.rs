@@ -20,10 +20,13 @@ use crate::surface::{SurfaceId, WornCollider};
 use crate::tracked::{Known, Live, Tracked};
 use crate::view::WorldView;
 use crate::world::{Integrated, WearWorld};
-use crate::{scalar, shadow};
+use crate::{quasi_static, scalar, shadow};
 
 /// A blow comes down faster than rest by this factor.
 const STRIKE: f64 = 1.5;
+
+/// Share of the rest speed below which a body does not move along.
+const CREEP: f64 = 0.05;
 
 /// Why a body was left to Rapier.
 enum Left {
@@ -151,8 +154,19 @@ impl WearWorld {
             Some(-lie.pose.inverse_transform_vector(&course.acceleration).z)
         };
         let pull = tracked.near.iter().filter_map(pull).fold(0.0, f64::max);
+        let rest_speed = pull * self.current.dt;
         let strike = self.strike(handle, rb, &tracked.near, gravity);
-        strike.is_some_and(|speed| speed < pull * self.current.dt)
+        if strike.is_none_or(|speed| speed >= rest_speed) {
+            return false;
+        }
+        // What moves along and ploughs is braked by it, which Rapier's contact would not do.
+        let load = pull * scalar::wide(rb.mass());
+        let firm = |id: &SurfaceId| {
+            let surface = &self.surfaces[id.0].surface;
+            quasi_static::holds(surface.laws(), surface.nodes().rest_area[0], load)
+        };
+        let speed = course.state.velocity.norm() + course.state.spin.norm() * tracked.radius;
+        speed < CREEP * rest_speed || tracked.near.iter().all(firm)
     }
 
     /// Gate and Micro.

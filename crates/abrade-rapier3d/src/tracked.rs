@@ -189,6 +189,12 @@ impl Tracked {
         time < BLOW * live.encounter.period()
     }
 
+    /// True while springs that Lockstep left loaded have not come to rest.
+    pub fn is_in_lockstep_blow(&self) -> bool {
+        let wearer = self.wearer.as_ref().map(|(_, wearer)| wearer);
+        wearer.is_some_and(|wearer| wearer.contact().in_contact() && !wearer.rests())
+    }
+
     /// Micro has carried it: what the others kept is let go.
     pub fn taken_by_micro(
         &mut self,
