@@ -30,6 +30,8 @@ pub struct IslandSettings {
     pub step_limit: u64,
     /// Normal speed below which a body that rings on its springs rests [m/s]; zero for never.
     pub rest_speed: f64,
+    /// Load that contacts at rest bore before [N].
+    pub rest_load: f64,
 }
 
 /// What an advance did.
@@ -51,8 +53,10 @@ pub struct Island {
     pairs: Pairs,
     rewind: Rewind,
     settings: IslandSettings,
-    /// Mean force of the contacts at rest in the last step [N].
+    /// Load that the contacts at rest bear, in the mean over a coarse step [N].
     rest_load: f64,
+    /// Longest step [s].
+    coarsest: f64,
 }
 
 impl Island {
@@ -81,7 +85,8 @@ impl Island {
         let pairs = Pairs::of(&world, &proxies);
         let filter = Filter::new(proxies);
         let rewind = Rewind::default();
-        Self { world, wearers, loads, filter, pairs, rewind, settings, rest_load: 0.0 }
+        let (rest_load, coarsest) = (settings.rest_load, 0.0);
+        Self { world, wearers, loads, filter, pairs, rewind, settings, rest_load, coarsest }
     }
 
     /// The world.
@@ -107,11 +112,11 @@ impl Island {
     ) -> Result<Done, PhysicsError> {
         let mut done = Done::default();
         let mut time = 0.0;
-        let coarsest = duration / COARSEST;
+        self.coarsest = duration / COARSEST;
         self.let_rest(surfaces);
         while time < duration {
             let remaining = duration - time;
-            let h = self.length(surfaces).min(self.turning()).min(coarsest).min(remaining);
+            let h = self.length(surfaces).min(self.turning()).min(self.coarsest).min(remaining);
             let h = self.pairs.limit(h, &self.world);
             let taken = self.step(surfaces, h)?;
             time = if taken == remaining { duration } else { time + taken };
@@ -139,7 +144,6 @@ impl Island {
         self.filter.forget();
         self.filter.wearers.clear();
         self.filter.wearers.extend(self.wearers.iter().map(|w| (w.handle, w.calm.rests)));
-        self.rest_load = 0.0;
     }
 
     /// Length of the next step [s].
@@ -212,7 +216,7 @@ impl Island {
                 return Ok(Met::TooLong(shorter));
             }
         }
-        self.rest_load = impulse / h;
+        self.rest_load += (impulse / h - self.rest_load) * (h / self.coarsest).min(1.0);
         let mut on_springs = self.wearers.iter_mut().filter(|w| !w.calm.rests);
         on_springs.try_for_each(|w| w.follow(surfaces, h))?;
         Ok(Met::Fits)
@@ -228,12 +232,12 @@ impl Island {
         pairs.map(of).sum()
     }
 
-    /// Do contacts at rest carry an impulse that resting does not explain?
+    /// Do contacts at rest carry an impulse, in a step of `h` [s], that resting does not explain?
     fn is_struck(&self, impulse: f64, h: f64) -> bool {
         let resting = self.wearers.iter().filter(|w| w.calm.rests);
         let mass: f64 = resting.map(|w| w.body.inertia.mass).sum();
-        let borne = self.rest_load;
-        impulse > mass * self.settings.rest_speed + STRUCK * borne * h
+        let jolt = mass * self.settings.rest_speed / self.coarsest;
+        impulse > (STRUCK * self.rest_load + jolt) * h
     }
 
     /// Puts bodies that only ring to rest.

@@ -1,20 +1,30 @@
 //! Our hooks for one step: pairs that wear has resolved are taken from Rapier, everything else
 //! goes to the embedder's hooks.
 
-use rapier::dynamics::RigidBodyHandle;
+use rapier::dynamics::{RigidBodyHandle, RigidBodySet};
 use rapier::geometry::{ColliderHandle, ColliderSet, SolverFlags};
 use rapier::pipeline::{ActiveHooks, ContactModificationContext, PairFilterContext, PhysicsHooks};
 
 use crate::lay::lay;
 use crate::surface::WornCollider;
 
+/// How a surface meets a body that Rapier keeps in hand.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Grip {
+    /// Friction of the contact [-].
+    pub friction: f64,
+    /// It lies on the surface, or in what it has worn: a clamp of its path to the undeformed
+    /// proxy would hold it fast.
+    pub lies: bool,
+}
+
 /// Which pairs are taken; fixed over a step.
 #[derive(Default)]
 pub(crate) struct Taken {
     /// Bodies resolved in this step, sorted.
     bodies: Vec<(u32, u32)>,
-    /// Bodies that Rapier keeps in hand, with the friction of their wear contacts, sorted.
-    held: Vec<((u32, u32), f64)>,
+    /// Bodies that Rapier keeps in hand, sorted.
+    held: Vec<((u32, u32), Grip)>,
     /// Proxies with the hooks that the embedder had set on them, sorted by handle.
     proxies: Vec<(ColliderHandle, ActiveHooks)>,
 }
@@ -25,14 +35,14 @@ impl Taken {
         self.held.clear();
     }
 
-    pub fn add_held(&mut self, body: RigidBodyHandle, friction: f64) {
+    pub fn add_held(&mut self, body: RigidBodyHandle, grip: Grip) {
         let key = body.into_raw_parts();
         if let Err(at) = self.held.binary_search_by_key(&key, |(held, _)| *held) {
-            self.held.insert(at, (key, friction));
+            self.held.insert(at, (key, grip));
         }
     }
 
-    fn friction(&self, body: Option<RigidBodyHandle>) -> Option<f64> {
+    fn grip(&self, body: Option<RigidBodyHandle>) -> Option<Grip> {
         let key = body?.into_raw_parts();
         let at = self.held.binary_search_by_key(&key, |(held, _)| *held).ok()?;
         Some(self.held[at].1)
@@ -96,6 +106,13 @@ impl WearGuard<'_> {
     }
 }
 
+/// True between Rapier's solver and the end of its step, when it asks for the clamp of fast bodies;
+/// it asks for contacts before.
+fn is_on_its_way(bodies: &RigidBodySet, body: Option<RigidBodyHandle>) -> bool {
+    let body = body.and_then(|handle| bodies.get(handle));
+    body.is_some_and(|rb| rb.next_position() != rb.position())
+}
+
 impl PhysicsHooks for WearGuard<'_> {
     fn filter_contact_pair(&self, context: &PairFilterContext) -> Option<SolverFlags> {
         let proxy1 = self.taken.user_hooks(context.collider1).is_some();
@@ -104,7 +121,11 @@ impl PhysicsHooks for WearGuard<'_> {
             || proxy2 && self.taken.has_body(context.rigid_body1);
         let pair = [context.collider1, context.collider2];
         let asked = self.user_asked(ActiveHooks::FILTER_CONTACT_PAIRS, context.colliders, pair);
-        match (taken, asked) {
+        let lies = |body| self.taken.grip(body).is_some_and(|grip: Grip| grip.lies);
+        let clamped =
+            |proxy: bool, body| proxy && lies(body) && is_on_its_way(context.bodies, body);
+        let clamped = clamped(proxy1, context.rigid_body2) || clamped(proxy2, context.rigid_body1);
+        match (taken || clamped, asked) {
             (true, _) => None,
             (false, true) => self.user.filter_contact_pair(context),
             (false, false) => Some(SolverFlags::default()),
@@ -120,9 +141,8 @@ impl PhysicsHooks for WearGuard<'_> {
         for ([own, other], body) in
             [(pair, context.rigid_body2), ([pair[1], pair[0]], context.rigid_body1)]
         {
-            if let (Some(worn), Some(friction)) = (self.surface_on(own), self.taken.friction(body))
-            {
-                lay(context, worn, other, friction);
+            if let (Some(worn), Some(grip)) = (self.surface_on(own), self.taken.grip(body)) {
+                lay(context, worn, other, grip.friction);
             }
         }
         if self.user_asked(ActiveHooks::MODIFY_SOLVER_CONTACTS, context.colliders, pair) {

@@ -23,6 +23,8 @@ pub(crate) struct Held {
     pub strikes: bool,
     /// Speed below which an approach is rest [m/s].
     pub rest_speed: f64,
+    /// Load that its contacts with surfaces bore in the step before [N].
+    pub bore: f64,
 }
 
 /// States before the step, in the order of the handles.

@@ -10,6 +10,7 @@ use crate::booking::{Booking, Contact};
 use crate::error::WearError;
 use crate::event::{Refusal, WearEvent};
 use crate::gate::{self, Course, Way};
+use crate::guard::Grip;
 use crate::held::Held;
 use crate::lockstep::gather;
 use crate::micro::Errand;
@@ -95,8 +96,10 @@ impl WearWorld {
             strike.is_some_and(|speed| speed > limit) || self.is_struck(body, world, limit);
         let tracked = Tracked::slot(&mut self.bodies, body);
         let first = self.surfaces[surfaces[0].0].surface.laws().material.friction;
-        self.taken.add_held(body, tracked.friction.max(first));
-        self.held.push(Held { body, surfaces, reason, strikes, rest_speed });
+        let friction = tracked.friction.max(first);
+        self.taken.add_held(body, Grip { friction, lies: !strikes });
+        let bore = tracked.borne.iter().map(|(_, load)| load).sum();
+        self.held.push(Held { body, surfaces, reason, strikes, rest_speed, bore });
     }
 
     /// True when something comes to meet the body, or what hangs together with it, faster than

@@ -70,9 +70,8 @@ impl WearWorld {
             borne.push((id, lie.pose.inverse_transform_vector(&impulse).z.max(0.0) / dt));
         }
         let total: f64 = borne.iter().map(|(_, load)| load).sum();
-        let before: f64 = tracked.borne.iter().map(|(_, load)| load).sum();
         let mass = scalar::wide(rb.mass());
-        held.strikes |= total * dt > mass * held.rest_speed + GROWTH * before * dt;
+        held.strikes |= total * dt > mass * held.rest_speed + GROWTH * held.bore * dt;
         tracked.borne = borne;
     }
 

@@ -99,7 +99,9 @@ impl WearWorld {
         }
         let inner = |proxy: &ColliderHandle| copy.standing.get(&proxy.into_raw_parts()).copied();
         let proxies = proxies.iter().filter_map(inner).collect();
-        let settings = IslandSettings { step_limit: self.settings.step_limit, rest_speed };
+        let rest_load = held.iter().map(|h| h.bore).sum();
+        let step_limit = self.settings.step_limit;
+        let settings = IslandSettings { step_limit, rest_speed, rest_load };
         let mut island = Island::new(copy.world, wearers, proxies, settings);
         let dt = self.current.dt;
         let done = island
