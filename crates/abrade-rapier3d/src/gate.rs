@@ -23,7 +23,7 @@ pub(crate) struct Lie {
     /// Its frame in the world.
     pub pose: Isometry3<f64>,
     /// Box around its nodes, in the world.
-    extent: Extent,
+    pub extent: Extent,
 }
 
 /// Where the surfaces lie; those whose proxy is gone or disabled are left out.

@@ -27,6 +27,7 @@ mod drive;
 mod error;
 mod event;
 mod gate;
+mod glance;
 mod guard;
 mod micro;
 mod observer;

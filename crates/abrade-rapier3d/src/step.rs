@@ -8,6 +8,7 @@ use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
 
 use crate::error::WearError;
 use crate::gate::{self, Course};
+use crate::glance::Span;
 use crate::guard::WearGuard;
 use crate::observer::WearObserver;
 use crate::settings::StepReport;
@@ -73,7 +74,7 @@ impl WearWorld {
         if !self.surfaces.is_empty() && self.current.dt > 0.0 {
             self.choose(&mut world, &gravity);
             self.collect_obstacles(&world);
-            let single = self.single_registered();
+            let single = self.single_registered(world.bodies);
             self.candidates
                 .sort_by_key(|&handle| (Some(handle) != single, handle.into_raw_parts()));
             for at in 0..self.candidates.len() {
@@ -122,6 +123,9 @@ impl WearWorld {
             tracked.shadow = steered.settle(rb);
             steer::carry_colliders(rb, colliders);
         }
+        let mut proxies = self.surfaces.iter().map(|worn| worn.proxy);
+        let proxy = proxies.find(|&proxy| colliders.contains(proxy));
+        self.glances.seal(proxy, colliders);
         let Current { dt, exited, failure } = std::mem::take(&mut self.current);
         match failure {
             Some(error) => Err(error),
@@ -156,10 +160,10 @@ impl WearWorld {
     }
 
     /// The one body whose first exit may end a step.
-    fn single_registered(&self) -> Option<RigidBodyHandle> {
-        let mut registered = self.bodies.iter().flatten().filter(|tracked| tracked.registered);
+    fn single_registered(&self, bodies: &RigidBodySet) -> Option<RigidBodyHandle> {
+        let mut registered = self.registered.iter().filter(|&&handle| bodies.contains(handle));
         match (registered.next(), registered.next()) {
-            (Some(tracked), None) => Some(tracked.handle),
+            (Some(&handle), None) => Some(handle),
             _ => None,
         }
     }
@@ -167,22 +171,26 @@ impl WearWorld {
     /// Finds the bodies near a surface; ends encounters of those that are not.
     fn choose(&mut self, world: &mut WorldView<'_>, gravity: &Vector3<f64>) {
         gate::lie(&self.surfaces, world.colliders, &mut self.lies);
-        let mut stale = std::mem::take(&mut self.stale);
-        stale.clear();
-        for (handle, rb) in world.bodies.iter().filter(|(_, rb)| gate::takes_part(rb)) {
-            match Tracked::slot(&mut self.bodies, handle).is_stale(rb, world.colliders) {
-                true => stale.push(handle),
-                false => self.look_at(handle, rb, world.colliders, gravity),
+        let mut picked = std::mem::take(&mut self.picked);
+        let span = Span { dt: self.current.dt, gravity: gravity.norm() };
+        self.glances.pick(world.bodies, world.colliders, &self.lies, span, &mut picked);
+        for &handle in &picked {
+            let Some(rb) = world.bodies.get(handle).filter(|rb| gate::takes_part(rb)) else {
+                continue;
+            };
+            self.counters.looked += 1;
+            if Tracked::slot(&mut self.bodies, handle).is_stale(rb, world.colliders)
+                && let Some(rb) = world.bodies.get_mut(handle)
+            {
+                // Colliders and extra masses that are new count from Rapier's next step on.
+                rb.recompute_mass_properties_from_colliders(world.colliders);
+                Tracked::slot(&mut self.bodies, handle).refresh(rb, world.colliders);
             }
-        }
-        for &handle in &stale {
-            let Some(rb) = world.bodies.get_mut(handle) else { continue };
-            // Colliders and extra masses that are new count from Rapier's next step on.
-            rb.recompute_mass_properties_from_colliders(world.colliders);
-            Tracked::slot(&mut self.bodies, handle).refresh(rb, world.colliders);
+            let Some(rb) = world.bodies.get(handle) else { continue };
             self.look_at(handle, rb, world.colliders, gravity);
+            self.glances.keep(handle, rb, Tracked::slot(&mut self.bodies, handle));
         }
-        self.stale = stale;
+        self.picked = picked;
     }
 
     /// Makes a body a candidate if it comes near a surface, else ends its encounter.

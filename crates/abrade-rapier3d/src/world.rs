@@ -12,6 +12,7 @@ use crate::drive::DrivenBody;
 use crate::error::WearError;
 use crate::event::WearEvent;
 use crate::gate::Lie;
+use crate::glance::Glances;
 use crate::guard::Taken;
 use crate::obstacle::Obstacles;
 use crate::settings::{Counters, WearSettings};
@@ -32,8 +33,11 @@ pub struct WearWorld {
     pub(crate) lies: Vec<Lie>,
     /// Bodies near a wear surface in this step.
     pub(crate) candidates: Vec<RigidBodyHandle>,
-    /// Bodies whose colliders have changed.
-    pub(crate) stale: Vec<RigidBodyHandle>,
+    /// The first look at every body, and whom it picked in this step.
+    pub(crate) glances: Glances,
+    pub(crate) picked: Vec<RigidBodyHandle>,
+    /// Bodies that the embedder has registered, removed ones included.
+    pub(crate) registered: Vec<RigidBodyHandle>,
     /// Bodies carried through this step.
     pub(crate) integrated: Vec<Integrated>,
     pub(crate) steered: Vec<Steered>,
