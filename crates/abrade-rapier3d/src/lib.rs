@@ -22,6 +22,9 @@
 pub use abrade;
 pub use rapier;
 
+mod ahead;
+mod bins;
+mod changed;
 mod derive;
 mod drive;
 mod error;
@@ -38,9 +41,11 @@ mod resolve;
 pub mod scalar;
 mod settings;
 mod shadow;
+mod start;
 mod steer;
 mod step;
 mod surface;
+mod track;
 mod tracked;
 mod view;
 mod world;

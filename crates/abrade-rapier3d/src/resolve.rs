@@ -4,20 +4,20 @@
 use abrade::{PhysicsError, Until};
 use rapier::dynamics::RigidBodyHandle;
 
+use crate::ahead::Ahead;
 use crate::error::WearError;
 use crate::event::{Refusal, WearEvent};
-use crate::gate::{self, Course, Way};
-use crate::micro::Errand;
+use crate::micro;
 use crate::observer::{Relay, WearObserver};
-use crate::path::Extent;
-use crate::surface::{SurfaceId, WornCollider};
+use crate::start::{How, Scene};
+use crate::surface::SurfaceId;
+use crate::track::Trace;
 use crate::tracked::{Known, Live, Tracked};
 use crate::view::WorldView;
 use crate::world::{Integrated, WearWorld};
-use crate::{scalar, shadow};
 
 /// Why a body was left to Rapier.
-enum Left {
+pub(crate) enum Left {
     Refused(Refusal),
     Failed(PhysicsError),
 }
@@ -46,7 +46,7 @@ impl WearWorld {
         let tracked = Tracked::slot(&mut self.bodies, handle);
         let Some(&surface) = tracked.near.first() else { return };
         let exact = tracked.shadow.is_some();
-        let Err(left) = self.carry(handle, surface, world, until, observer) else { return };
+        let Err(left) = self.carry(handle, world, until, observer) else { return };
         let tracked = Tracked::slot(&mut self.bodies, handle);
         tracked.shadow = None;
         self.closed += tracked.end(&mut self.events);
@@ -78,67 +78,88 @@ impl WearWorld {
     fn carry(
         &mut self,
         handle: RigidBodyHandle,
-        surface: SurfaceId,
+        world: &WorldView<'_>,
+        until: Until,
+        observer: &mut dyn WearObserver,
+    ) -> Result<(), Left> {
+        let carried = self.carry_alone(handle, world, until, observer);
+        if carried.is_err() {
+            self.obstacles.blur(handle);
+        }
+        carried
+    }
+
+    fn carry_alone(
+        &mut self,
+        handle: RigidBodyHandle,
         world: &WorldView<'_>,
         until: Until,
         observer: &mut dyn WearObserver,
     ) -> Result<(), Left> {
         let dt = self.current.dt;
         let tracked = Tracked::slot(&mut self.bodies, handle);
-        let Some(rb) = world.bodies.get(handle) else { return Ok(()) };
-        if let Some(refusal) = gate::bound(world, rb, handle, &tracked.near, &self.surfaces) {
-            return Err(refusal.into());
-        }
-        tracked.derive(rb, world.colliders)?;
+        let ahead = tracked.ahead.take();
+        let scene = Scene {
+            world,
+            surfaces: &self.surfaces,
+            lies: &self.lies,
+            obstacles: &self.obstacles,
+            settings: &self.settings,
+            dt,
+        };
+        let Some(start) = scene.start(tracked)? else { return Ok(()) };
         // An encounter goes on in the frame it began in.
-        if !tracked.knows_surfaces(&self.lies) {
+        if start.is_new {
             self.closed += tracked.end(&mut self.events);
         }
-        let anchor = tracked.live.as_ref().map_or(surface, |live| live.surfaces[0]);
-        let Some(lie) = self.lies.iter().find(|lie| lie.id == anchor) else { return Ok(()) };
-        let (frame, bounds) = (lie.pose, self.surfaces[anchor.0].bounds);
-        let (colliders, obstacles) = (world.colliders, &self.obstacles);
-        let way = Way { body: handle, rb, colliders, obstacles, frame, bounds };
-        let gravity = scalar::vector(world.gravity);
-        if let Some(refusal) = way.on_course(&Course::of(rb, tracked, &gravity), dt) {
+        let Some(way) = start.way(world, &self.obstacles) else { return Ok(()) };
+        if let Some(refusal) = way.on_course(&start.course, dt) {
             return Err(refusal.into());
         }
-        let state = shadow::read(rb, tracked.shadow.as_ref(), &frame);
-        let Known::Ready(body) = &mut tracked.known else { return Ok(()) };
-        body.state = state;
+        let mut errand = scene.errand(way, &start, until);
+        let ahead = ahead.filter(|ahead| ahead.holds(&self.changed, &self.surfaces));
+        let how = scene.how(ahead, &start, tracked, &errand, observer.watches())?;
         if tracked.live.is_none() {
-            let settings = self.settings.encounter();
-            tracked.live = Some(Live::new(body, &tracked.near, &self.surfaces, settings)?);
+            let encounter = scene.encounter(&start, tracked)?;
+            tracked.live = Some(Live::new(encounter, start.surfaces.clone()));
         }
+        let Known::Ready(body) = &mut tracked.known else { return Ok(()) };
         let Some(live) = &mut tracked.live else { return Ok(()) };
-        let seen = Extent { low: state.position, high: state.position };
-        let loads = gate::loads(rb, &gravity, &frame);
-        let errand = Errand { way, loads, dt, until };
-        let met = live.surfaces.clone();
-        let mut relay = Relay { observer, body: handle, frame, surfaces: met, began: 0.0, seen };
-        let before: Vec<f64> = displaced(live, &self.surfaces).collect();
-        let advance = live.carry(body, &mut self.surfaces, &self.lies, &errand, &mut relay)?;
-        let after = displaced(live, &self.surfaces);
-        let gained = after.zip(before).map(|(after, before)| after - before);
-        let worn: Vec<_> = live.surfaces.iter().copied().zip(gained).collect();
+        let (frame, course) = (start.frame, start.course);
+        let (advance, worn, track) = match how {
+            How::Done(ahead) => {
+                let Ahead { end, encounter, advance, track, changes, .. } = *ahead;
+                live.encounter = encounter;
+                body.state = end;
+                let (surfaces, changed) = (&mut self.surfaces, &mut self.changed);
+                (advance, micro::apply(&live.surfaces, &changes, surfaces, changed), track)
+            }
+            How::Whole | How::Parts => {
+                let trace = Trace::new(start.state.position, errand.pull(body), dt);
+                let surfaces = start.surfaces;
+                let mut relay =
+                    Relay { observer, body: handle, frame, surfaces, began: 0.0, trace };
+                errand.in_parts = matches!(how, How::Parts);
+                let (surfaces, lies, changed) = (&mut self.surfaces, &self.lies, &mut self.changed);
+                let (advance, worn) =
+                    live.carry(body, surfaces, lies, &errand, &mut relay, changed);
+                let track = relay.trace.finish().map(|extent| extent.grown(course.radius()));
+                (advance?, worn, track)
+            }
+        };
         live.book(handle, &advance, &worn, &frame, &mut self.events);
         self.counters.add(&advance);
         self.integrated.push(Integrated { body: handle, end: body.state, frame });
+        self.obstacles.settle(handle, &track.placed_by(&frame));
         if advance.exited && until == Until::FirstExit {
             self.current.dt = advance.time;
             self.current.exited = Some(handle);
+            self.obstacles.forget_times();
         }
-        let stayed = relay.seen.grown(body.shape.bounding_radius()).placed_by(&frame);
-        self.obstacles.settle(handle, stayed);
         // What follows an exit is another encounter, with a first exit of its own.
         if advance.exited && !live.encounter.in_contact() {
             self.closed += tracked.end(&mut self.events);
         }
         Ok(())
     }
-}
-
-/// Volume displaced so far on each surface of the encounter [m3].
-fn displaced<'a>(live: &'a Live, surfaces: &'a [WornCollider]) -> impl Iterator<Item = f64> + 'a {
-    live.surfaces.iter().map(|id| surfaces[id.0].displaced())
 }

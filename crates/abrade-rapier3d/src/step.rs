@@ -77,6 +77,11 @@ impl WearWorld {
             let single = self.single_registered(world.bodies);
             self.candidates
                 .sort_by_key(|&handle| (Some(handle) != single, handle.into_raw_parts()));
+            // A first exit makes the step shorter for whoever follows.
+            let may_end = single.is_some() && self.settings.until == Until::FirstExit;
+            if self.candidates.len() > 1 && !may_end && !observer.watches() {
+                self.run_ahead(&world);
+            }
             for at in 0..self.candidates.len() {
                 let until = match Some(self.candidates[at]) == single {
                     true => self.settings.until,
@@ -139,10 +144,12 @@ impl WearWorld {
         self.integrated.clear();
         self.steered.clear();
         for handle in self.candidates.drain(..) {
-            Tracked::slot(&mut self.bodies, handle).course = None;
+            let tracked = Tracked::slot(&mut self.bodies, handle);
+            (tracked.course, tracked.ahead) = (None, None);
         }
         self.taken.clear();
         self.obstacles.clear();
+        self.changed.clear();
     }
 
     /// What the bodies near a surface may run into, each other included.
@@ -154,7 +161,7 @@ impl WearWorld {
         let is_proxy = |collider| surfaces.iter().any(|worn| worn.proxy == collider);
         let course = |body: RigidBodyHandle| {
             let slot = bodies.get(body.into_raw_parts().0 as usize)?.as_ref()?;
-            slot.course.filter(|_| slot.handle == body)
+            slot.course.as_deref().filter(|_| slot.handle == body)
         };
         self.obstacles.collect(world, self.current.dt, is_proxy, course);
     }
@@ -212,8 +219,8 @@ impl WearWorld {
         }
         let Some(&first) = tracked.near.first() else { return };
         let Some(lie) = self.lies.iter().find(|lie| lie.id == first) else { return };
-        let region = course.region_before(&lie.pose, &surfaces[first.0].bounds, dt);
-        tracked.course = Some(region.placed_by(&lie.pose));
+        let track = course.track_before(&lie.pose, &surfaces[first.0].bounds, dt);
+        tracked.course = Some(Box::new(track.placed_by(&lie.pose)));
         self.candidates.push(handle);
     }
 }

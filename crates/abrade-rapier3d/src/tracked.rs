@@ -6,12 +6,13 @@ use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::ColliderSet;
 use rapier::math::Vector;
 
+use crate::ahead::Ahead;
 use crate::derive::{self, Print};
 use crate::event::{Refusal, WearEvent};
 use crate::gate::Lie;
-use crate::path::Extent;
 use crate::shadow::{self, Shadow};
 use crate::surface::SurfaceId;
+use crate::track::Track;
 
 /// A rigid body and the core's view of it.
 pub(crate) struct Tracked {
@@ -25,8 +26,10 @@ pub(crate) struct Tracked {
     pub live: Option<Live>,
     /// Surfaces that it comes near in the step under way.
     pub near: Vec<SurfaceId>,
-    /// Box around its course to the first of them, in the world.
-    pub course: Option<Extent>,
+    /// Its course to the first of them, in the world.
+    pub course: Option<Box<Track>>,
+    /// What it does in the step under way if it is alone.
+    pub ahead: Option<Box<Ahead>>,
     prints: Vec<Print>,
     com: Option<Vector>,
 }
@@ -72,6 +75,7 @@ impl Tracked {
             live: None,
             near: Vec::new(),
             course: None,
+            ahead: None,
             prints: Vec::new(),
             com: None,
         }

@@ -8,6 +8,7 @@ use nalgebra::Isometry3;
 use rapier::dynamics::{RigidBodyHandle, RigidBodySet};
 use rapier::geometry::ColliderSet;
 
+use crate::changed::Changed;
 use crate::drive::DrivenBody;
 use crate::error::WearError;
 use crate::event::WearEvent;
@@ -30,6 +31,7 @@ pub struct WearWorld {
     pub(crate) bodies: Vec<Option<Tracked>>,
     pub(crate) taken: Taken,
     pub(crate) obstacles: Obstacles,
+    pub(crate) changed: Changed,
     pub(crate) lies: Vec<Lie>,
     /// Bodies near a wear surface in this step.
     pub(crate) candidates: Vec<RigidBodyHandle>,
@@ -128,7 +130,7 @@ impl WearWorld {
 
     /// The surfaces, in the order of insertion.
     pub fn surfaces(&self) -> impl Iterator<Item = (SurfaceId, &Surface)> {
-        self.surfaces.iter().enumerate().map(|(id, worn)| (SurfaceId(id), &worn.surface))
+        self.surfaces.iter().enumerate().map(|(id, worn)| (SurfaceId(id), &*worn.surface))
     }
 
     /// What happened in the last step.

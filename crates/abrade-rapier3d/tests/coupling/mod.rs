@@ -3,6 +3,7 @@
 
 mod crowd;
 mod gate;
+mod hail;
 mod hooks;
 mod independence;
 mod rig;
