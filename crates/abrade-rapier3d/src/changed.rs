@@ -56,7 +56,6 @@ impl Changed {
         let Some(places) = self.places.get(surface) else { return true };
         let [low, high] = read;
         let read = Extent { low, high }.grown(worn.surface.worn().max_depth);
-        let found = places.bins.find(&read);
-        !found.into_iter().any(|place| places.boxes[place as usize].meets(&read))
+        !places.bins.find(&read).any(|place| places.boxes[place as usize].meets(&read))
     }
 }

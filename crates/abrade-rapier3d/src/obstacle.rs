@@ -119,7 +119,7 @@ impl Obstacles {
         }
     }
 
-    /// The first collider that `body` could run into on `track`, given in `frame`.
+    /// A collider that `body` could run into on `track`, given in `frame`.
     pub fn in_way(
         &self,
         body: RigidBodyHandle,
@@ -129,8 +129,7 @@ impl Obstacles {
         colliders: &ColliderSet,
     ) -> Option<ColliderHandle> {
         let world_box = track.whole()?.placed_by(frame);
-        let found = self.bins.find(&world_box);
-        let near = found.into_iter().map(|place| &self.list[place as usize]);
+        let near = self.bins.find(&world_box).map(|place| &self.list[place as usize]);
         let near = near.filter(|o| o.body != Some(body) && o.extent.meets(&world_box));
         let mut solid = near.filter(|o| {
             colliders.get(o.collider).is_some_and(|other| {
