@@ -1,15 +1,15 @@
-//! Boxes sorted into the cells of a uniform grid: finds those that may meet a box without asking
-//! all of them.
+//! Boxes sorted into the cells of a uniform grid, layer by layer (slices of time, say): finds those
+//! of a layer that may meet a box without asking all of them.
 
 use nalgebra::{Point3, Vector3};
 
 use crate::path::Extent;
 
-/// Cells per box that is expected.
-const CELLS_PER_BOX: usize = 2;
+/// Cells of a layer per box that is expected.
+const CELLS_PER_BOX: usize = 1;
 /// Growth of a cell that proves too small.
 const GROWTH: f64 = 1.5;
-/// Cells beyond which a box is kept aside and found by every search.
+/// Cells beyond which a box is kept aside and found by every search, in whatever layer.
 const WIDE: usize = 64;
 
 /// A grid of cells over a region; what lies outside of it belongs to the cells at its border.
@@ -17,6 +17,7 @@ pub(crate) struct Bins {
     low: Point3<f64>,
     cell: f64,
     dims: [usize; 3],
+    /// Layer after layer.
     cells: Vec<Vec<u32>>,
     wide: Vec<u32>,
 }
@@ -29,8 +30,8 @@ impl Default for Bins {
 }
 
 impl Bins {
-    /// Empties the bins and lays them over `region`, for about `count` boxes.
-    pub fn lay(&mut self, region: &Extent, count: usize) {
+    /// Empties the bins and lays them over `region` in so many layers, for about `count` boxes.
+    pub fn lay(&mut self, region: &Extent, layers: usize, count: usize) {
         let size = region.high - region.low;
         let most = CELLS_PER_BOX * count + 1;
         let mut cell = size.amax() / most as f64;
@@ -46,31 +47,40 @@ impl Bins {
         (self.low, self.cell, self.dims) = (region.low, cell, dims(cell));
         self.cells.iter_mut().for_each(Vec::clear);
         self.wide.clear();
-        let cells = self.dims.iter().product::<usize>();
+        let cells = layers * self.layer();
         if self.cells.len() < cells {
             self.cells.resize_with(cells, Vec::new);
         }
     }
 
-    /// Sorts in the box of `item`; a second box of the same item comes on top of the first.
-    pub fn insert(&mut self, extent: &Extent, item: u32) {
+    /// Sorts in the box of `item` in a layer, on top of other boxes of the same item.
+    pub fn insert(&mut self, layer: usize, extent: &Extent, item: u32) {
         let [from, to] = self.range(extent);
         let count: usize = (0..3).map(|a| to[a] - from[a] + 1).product();
         if count > WIDE {
-            self.wide.push(item);
+            if self.wide.last() != Some(&item) {
+                self.wide.push(item);
+            }
             return;
         }
+        let first = layer * self.layer();
         for cell in cells(self.dims, from, to) {
-            self.cells[cell].push(item);
+            self.cells[first + cell].push(item);
         }
     }
 
-    /// Items whose boxes may meet `extent`, in an order that depends on the boxes alone; some of
+    /// Items whose boxes in a layer may meet `extent`, in an order that depends on the boxes alone; some of
     /// them more than once.
-    pub fn find(&self, extent: &Extent) -> impl Iterator<Item = u32> + '_ {
+    pub fn find(&self, layer: usize, extent: &Extent) -> impl Iterator<Item = u32> + '_ {
         let [from, to] = self.range(extent);
-        let cells = cells(self.dims, from, to).flat_map(|cell| &self.cells[cell]);
+        let first = layer * self.layer();
+        let cells = cells(self.dims, from, to).flat_map(move |cell| &self.cells[first + cell]);
         cells.chain(&self.wide).copied()
+    }
+
+    /// Cells of a layer.
+    fn layer(&self) -> usize {
+        self.dims.iter().product()
     }
 
     fn range(&self, extent: &Extent) -> [[usize; 3]; 2] {
@@ -96,7 +106,7 @@ mod tests {
     use super::*;
 
     /// Fails for a search that misses a box across cells, outside the region or of any size, and
-    /// for one that asks every box.
+    /// for one that asks every box, or those of another layer.
     #[test]
     fn a_search_finds_every_box_that_meets_and_few_others() {
         let around = |x: f64, y: f64, half: f64| {
@@ -109,16 +119,16 @@ mod tests {
         boxes.push(around(3.0, 3.0, 50.0));
         boxes.push(around(-40.0, 60.0, 0.5));
         let mut bins = Bins::default();
-        bins.lay(&Extent { low: Point3::origin(), high: Point3::new(19.0, 19.0, 0.0) }, 400);
+        bins.lay(&Extent { low: Point3::origin(), high: Point3::new(19.0, 19.0, 0.0) }, 2, 400);
         for (i, extent) in boxes.iter().enumerate() {
-            bins.insert(extent, i as u32);
+            bins.insert(1, extent, i as u32);
         }
         for query in [around(5.2, 7.9, 0.3), around(0.0, 19.0, 2.0), around(-40.0, 60.0, 0.1)] {
-            let found: Vec<u32> = bins.find(&query).collect();
+            let found: Vec<u32> = bins.find(1, &query).collect();
             let meets = |i: &u32| boxes[*i as usize].meets(&query);
             let met: Vec<u32> = (0..boxes.len() as u32).filter(meets).collect();
             assert!(met.iter().all(|i| found.contains(i)), "{met:?} not in {found:?}");
-            assert!(found.len() < 60);
+            assert!(found.len() < 60 && bins.find(0, &query).count() == 1);
         }
     }
 }

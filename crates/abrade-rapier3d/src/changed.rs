@@ -33,7 +33,7 @@ impl Changed {
         self.places.resize_with(surfaces.len(), Places::default);
         for (places, worn) in self.places.iter_mut().zip(surfaces) {
             places.boxes.clear();
-            places.bins.lay(&worn.bounds, count);
+            places.bins.lay(&worn.bounds, 1, count);
         }
     }
 
@@ -47,7 +47,7 @@ impl Changed {
         let Some([low, high]) = changes.bounds(worn.surface.nodes()) else { return };
         let Some(places) = self.places.get_mut(surface) else { return };
         let extent = Extent { low, high };
-        places.bins.insert(&extent, places.boxes.len() as u32);
+        places.bins.insert(0, &extent, places.boxes.len() as u32);
         places.boxes.push(extent);
     }
 
@@ -56,6 +56,6 @@ impl Changed {
         let Some(places) = self.places.get(surface) else { return true };
         let [low, high] = read;
         let read = Extent { low, high }.grown(worn.surface.worn().max_depth);
-        !places.bins.find(&read).any(|place| places.boxes[place as usize].meets(&read))
+        !places.bins.find(0, &read).any(|place| places.boxes[place as usize].meets(&read))
     }
 }

@@ -105,7 +105,7 @@ impl Course {
 
     /// Box around wherever the body may be flung over `dt` [s], in `frame`: no contact with a
     /// surface at rest makes it faster than its energy allows.
-    fn reach(&self, frame: &Isometry3<f64>, dt: f64) -> Extent {
+    pub fn reach(&self, frame: &Isometry3<f64>, dt: f64) -> Extent {
         let spin = self.state.spin.norm() * self.radius;
         let speed = self.state.velocity.norm().hypot(spin) + self.acceleration.norm() * dt;
         let centre = frame.inverse_transform_point(&self.state.position);

@@ -13,7 +13,7 @@ use rapier::parry::shape::{Cuboid, Shape};
 use crate::bins::Bins;
 use crate::path::Extent;
 use crate::scalar;
-use crate::track::Track;
+use crate::track::{SLICES, Track};
 use crate::view::WorldView;
 
 /// A collider, and where it is over the step.
@@ -44,16 +44,16 @@ impl Obstacles {
         self.of_body.clear();
     }
 
-    /// Collects the solid colliders of a step, `is_proxy` ones apart.
+    /// Collects the solid colliders of a step that come into `reach`, `is_proxy` ones apart.
     /// `course` gives the track of bodies that are themselves on their way to a wear surface.
     pub fn collect<'a>(
         &mut self,
         world: &WorldView<'_>,
         dt: f64,
+        reach: &Extent,
         is_proxy: impl Fn(ColliderHandle) -> bool,
         course: impl Fn(RigidBodyHandle) -> Option<&'a Track>,
     ) {
-        let mut region: Option<Extent> = None;
         for (handle, collider) in world.colliders.iter_enabled() {
             if collider.is_sensor() || is_proxy(handle) {
                 continue;
@@ -61,10 +61,7 @@ impl Obstacles {
             let body = collider.parent();
             let own_course = body.and_then(&course);
             let (track, extent) = match own_course.and_then(|track| Some((track, track.whole()?))) {
-                Some((track, whole)) => {
-                    region = Some(region.map_or(whole, |region| region.joined(&whole)));
-                    (Some(track.clone()), whole)
-                }
+                Some((track, whole)) => (Some(track.clone()), whole),
                 None => {
                     let standing = extent(&collider.compute_aabb());
                     let parent = body.and_then(|handle| world.bodies.get(handle));
@@ -73,6 +70,9 @@ impl Obstacles {
                     (track, whole)
                 }
             };
+            if !extent.meets(reach) {
+                continue;
+            }
             if let (Some(body), true) = (body, own_course.is_some()) {
                 let places = self.of_body.entry(body.into_raw_parts()).or_default();
                 places.push(self.list.len() as u32);
@@ -83,24 +83,36 @@ impl Obstacles {
             });
             self.list.push(Obstacle { collider: handle, body, extent, track });
         }
-        if let Some(region) = region {
-            self.bins.lay(&region, self.list.len());
+        self.bins.lay(reach, SLICES, self.list.len());
+        for place in 0..self.list.len() {
+            self.sort_in(place);
         }
-        for (place, obstacle) in self.list.iter().enumerate() {
-            self.bins.insert(&obstacle.extent, place as u32);
+    }
+
+    fn sort_in(&mut self, place: usize) {
+        let obstacle = &self.list[place];
+        for number in 0..SLICES {
+            let extent = match obstacle.track {
+                Some(track) => self.tracks[track].slices()[number],
+                None => Some(obstacle.extent),
+            };
+            if let Some(extent) = extent {
+                self.bins.insert(number, &extent, place as u32);
+            }
         }
     }
 
     /// Puts the track on which a body really was in place of the one it might have.
     pub fn settle(&mut self, body: RigidBodyHandle, track: &Track) {
         let Some(whole) = track.whole() else { return };
-        for &place in self.of_body.get(&body.into_raw_parts()).into_iter().flatten() {
-            let obstacle = &mut self.list[place as usize];
+        let places = self.of_body.get(&body.into_raw_parts()).cloned().unwrap_or_default();
+        for place in places.into_iter().map(|place| place as usize) {
+            let obstacle = &mut self.list[place];
             obstacle.extent = whole;
             if let Some(own) = obstacle.track {
                 self.tracks[own].clone_from(track);
             }
-            self.bins.insert(&whole, place);
+            self.sort_in(place);
         }
     }
 
@@ -117,6 +129,9 @@ impl Obstacles {
         for track in &mut self.tracks {
             *track = track.whole().map_or_else(Track::nowhere, Track::still);
         }
+        for place in 0..self.list.len() {
+            self.sort_in(place);
+        }
     }
 
     /// A collider that `body` could run into on `track`, given in `frame`.
@@ -128,39 +143,38 @@ impl Obstacles {
         frame: &Isometry3<f64>,
         colliders: &ColliderSet,
     ) -> Option<ColliderHandle> {
-        let world_box = track.whole()?.placed_by(frame);
-        let near = self.bins.find(&world_box).map(|place| &self.list[place as usize]);
-        let near = near.filter(|o| o.body != Some(body) && o.extent.meets(&world_box));
-        let mut solid = near.filter(|o| {
-            colliders.get(o.collider).is_some_and(|other| {
+        let blocked = |number: usize, region: &Extent| {
+            let world_box = region.placed_by(frame);
+            let near = self.bins.find(number, &world_box).map(|place| &self.list[place as usize]);
+            let near = near.filter(|o| o.body != Some(body) && o.extent.meets(&world_box));
+            let mut solid = near.filter(|o| {
+                let Some(other) = colliders.get(o.collider) else { return false };
                 let mut own = own.iter().filter_map(|&handle| colliders.get(handle));
-                own.any(|mine| interact(mine, other)) && self.meets(o, track, frame, other)
-            })
-        });
-        solid.next().map(|o| o.collider)
+                self.meets(o, number, (region, &world_box), frame, other)
+                    && own.any(|mine| interact(mine, other))
+            });
+            solid.next().map(|o| o.collider)
+        };
+        let mut regions = track.slices().iter().enumerate();
+        regions.find_map(|(number, region)| blocked(number, region.as_ref()?))
     }
 
-    /// Does a body on `track` in `frame` touch the obstacle's collider itself, or in the same
-    /// slice of time the box it is in if it moves?
+    /// Does `region` in `frame`, inside the box of the world, touch the obstacle's collider
+    /// itself, or the box it is in over the slice of time if it moves?
     fn meets(
         &self,
         obstacle: &Obstacle,
-        track: &Track,
+        slice: usize,
+        (region, world_box): (&Extent, &Extent),
         frame: &Isometry3<f64>,
         collider: &Collider,
     ) -> bool {
         let Some(own) = obstacle.track else {
-            let mut regions = track.slices().iter().flatten();
-            return regions.any(|region| {
-                obstacle.extent.meets(&region.placed_by(frame))
-                    && touches(region, frame, collider.position(), collider.shape())
-            });
+            return touches(region, frame, collider.position(), collider.shape());
         };
-        let mut pairs = track.slices().iter().zip(self.tracks[own].slices());
-        pairs.any(|pair| {
-            let (Some(region), Some(other)) = pair else { return false };
-            let (pose, cuboid) = cuboid(other, &Isometry3::identity());
-            other.meets(&region.placed_by(frame)) && touches(region, frame, &pose, &cuboid)
+        self.tracks[own].slices()[slice].is_some_and(|other| {
+            let (pose, cuboid) = cuboid(&other, &Isometry3::identity());
+            other.meets(world_box) && touches(region, frame, &pose, &cuboid)
         })
     }
 }

@@ -131,7 +131,7 @@ impl WearWorld {
         let mut proxies = self.surfaces.iter().map(|worn| worn.proxy);
         let proxy = proxies.find(|&proxy| colliders.contains(proxy));
         self.glances.seal(proxy, colliders);
-        let Current { dt, exited, failure } = std::mem::take(&mut self.current);
+        let Current { dt, exited, failure, .. } = std::mem::take(&mut self.current);
         match failure {
             Some(error) => Err(error),
             None => Ok(StepReport { dt, exited }),
@@ -154,16 +154,14 @@ impl WearWorld {
 
     /// What the bodies near a surface may run into, each other included.
     fn collect_obstacles(&mut self, world: &WorldView<'_>) {
-        if self.candidates.is_empty() {
-            return;
-        }
+        let Some(reach) = self.current.reach else { return };
         let (surfaces, bodies) = (&self.surfaces, &self.bodies);
         let is_proxy = |collider| surfaces.iter().any(|worn| worn.proxy == collider);
         let course = |body: RigidBodyHandle| {
             let slot = bodies.get(body.into_raw_parts().0 as usize)?.as_ref()?;
             slot.course.as_deref().filter(|_| slot.handle == body)
         };
-        self.obstacles.collect(world, self.current.dt, is_proxy, course);
+        self.obstacles.collect(world, self.current.dt, &reach, is_proxy, course);
     }
 
     /// The one body whose first exit may end a step.
@@ -221,6 +219,9 @@ impl WearWorld {
         let Some(lie) = self.lies.iter().find(|lie| lie.id == first) else { return };
         let track = course.track_before(&lie.pose, &surfaces[first.0].bounds, dt);
         tracked.course = Some(Box::new(track.placed_by(&lie.pose)));
+        let reach = course.reach(&Isometry3::identity(), dt);
+        let reach = self.current.reach.map_or(reach, |others| others.joined(&reach));
+        self.current.reach = Some(reach);
         self.candidates.push(handle);
     }
 }

@@ -16,6 +16,7 @@ use crate::gate::Lie;
 use crate::glance::Glances;
 use crate::guard::Taken;
 use crate::obstacle::Obstacles;
+use crate::path::Extent;
 use crate::settings::{Counters, WearSettings};
 use crate::shadow;
 use crate::steer::Steered;
@@ -65,6 +66,8 @@ pub(crate) struct Current {
     pub dt: f64,
     pub exited: Option<RigidBodyHandle>,
     pub failure: Option<WearError>,
+    /// Box around wherever bodies near a surface may get.
+    pub reach: Option<Extent>,
 }
 
 impl WearWorld {
