@@ -92,8 +92,7 @@ impl Course {
     /// lowest plane. A body that may go over the surface's border is followed to the end.
     pub fn track_before(&self, frame: &Isometry3<f64>, bounds: &Extent, dt: f64) -> Track {
         let local = self.seen_from(frame);
-        let (state, pull) = (&local.state, local.acceleration.z);
-        let fall = time_to_fall(state.position.z - bounds.low.z, state.velocity.z, pull).min(dt);
+        let fall = local.time_to_fall(bounds).min(dt);
         match local.part([0.0, fall]).is_over(bounds) {
             true => Track::over(dt, |from, to| {
                 let part = || local.part([from, to.min(fall)]).above(bounds.low.z);
@@ -101,6 +100,22 @@ impl Course {
             }),
             false => Track::over(dt, |from, to| Some(local.part([from, to]))),
         }
+    }
+
+    /// Box around [`Course::track_before`].
+    fn region_before(&self, frame: &Isometry3<f64>, bounds: &Extent, dt: f64) -> Extent {
+        let local = self.seen_from(frame);
+        let cut = local.part([0.0, local.time_to_fall(bounds).min(dt)]);
+        match cut.is_over(bounds) {
+            true => cut.above(bounds.low.z),
+            false => local.part([0.0, dt]),
+        }
+    }
+
+    /// Time after which the centre of mass is at the lowest plane of the bounds [s].
+    fn time_to_fall(&self, bounds: &Extent) -> f64 {
+        let State { position, velocity, .. } = &self.state;
+        time_to_fall(position.z - bounds.low.z, velocity.z, self.acceleration.z)
     }
 
     /// Box around wherever the body may be flung over `dt` [s], in `frame`: no contact with a
@@ -152,7 +167,7 @@ impl Way<'_> {
     /// The obstacle on the body's `course` for `time` [s] from when it `began` [s], in a step of
     /// `dt` [s].
     pub fn ahead(&self, course: &Course, time: f64, began: f64, dt: f64) -> Option<Refusal> {
-        let region = course.track_before(&self.frame, &self.bounds, time).whole()?;
+        let region = course.region_before(&self.frame, &self.bounds, time);
         self.on(&Track::during([began, began + time], dt, region))
     }
 

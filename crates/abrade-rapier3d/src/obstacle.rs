@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::{Isometry3, Point3};
+use nalgebra::{Isometry3, Point3, Vector3};
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{Aabb, Collider, ColliderHandle, ColliderSet};
 use rapier::math::Pose;
@@ -65,9 +65,15 @@ impl Obstacles {
                 None => {
                     let standing = extent(&collider.compute_aabb());
                     let parent = body.and_then(|handle| world.bodies.get(handle));
-                    let track = parent.and_then(|rb| swept(rb, &standing, world, dt));
-                    let whole = track.as_ref().and_then(Track::whole).unwrap_or(standing);
-                    (track, whole)
+                    match parent.and_then(|rb| Sweep::of(rb, standing, world, dt)) {
+                        // Most bodies of a crowd are far: they need no track.
+                        Some(sweep) if !sweep.part([0.0, dt]).meets(reach) => continue,
+                        Some(sweep) => {
+                            let track = Track::over(dt, |from, to| Some(sweep.part([from, to])));
+                            (Some(track), sweep.part([0.0, dt]))
+                        }
+                        None => (None, standing),
+                    }
                 }
             };
             if !extent.meets(reach) {
@@ -150,8 +156,8 @@ impl Obstacles {
             let mut solid = near.filter(|o| {
                 let Some(other) = colliders.get(o.collider) else { return false };
                 let mut own = own.iter().filter_map(|&handle| colliders.get(handle));
-                self.meets(o, number, (region, &world_box), frame, other)
-                    && own.any(|mine| interact(mine, other))
+                own.any(|mine| interact(mine, other))
+                    && self.meets(o, number, (region, &world_box), frame, other)
             });
             solid.next().map(|o| o.collider)
         };
@@ -198,31 +204,43 @@ pub(crate) fn interact(a: &Collider, b: &Collider) -> bool {
         && a.solver_groups().test(b.solver_groups())
 }
 
-/// Where a collider that now fills `standing` is over the step, as long as its body meets
-/// nothing; none for one that does not move.
-fn swept(body: &RigidBody, standing: &Extent, world: &WorldView<'_>, dt: f64) -> Option<Track> {
-    if !(body.is_dynamic() && !body.is_sleeping() || body.is_kinematic()) {
-        return None;
+/// A collider on its way over the step, as long as its body meets nothing.
+struct Sweep {
+    /// The box that it fills at the start, grown by what turns may add.
+    start: Extent,
+    velocity: Vector3<f64>,
+    pull: Vector3<f64>,
+}
+
+impl Sweep {
+    /// Of a collider that now fills `standing`; none if it does not move.
+    fn of(body: &RigidBody, standing: Extent, world: &WorldView<'_>, dt: f64) -> Option<Self> {
+        if !(body.is_dynamic() && !body.is_sleeping() || body.is_kinematic()) {
+            return None;
+        }
+        let centre = scalar::vector(body.center_of_mass());
+        let arm = (standing.low.coords - centre).abs().sup(&(standing.high.coords - centre).abs());
+        let turn = |angle: f64| arm.norm() * angle.min(2.0);
+        let angle = scalar::vector(body.angvel()).norm() * dt;
+        let velocity = scalar::vector(body.linvel());
+        if body.is_kinematic() {
+            let step = scalar::pose(body.position()).inverse() * scalar::pose(body.next_position());
+            let set = step.translation.vector.norm() + turn(step.rotation.angle());
+            let start = standing.grown(set.max(velocity.norm() * dt + turn(angle)));
+            return Some(Self { start, velocity: Vector3::zeros(), pull: Vector3::zeros() });
+        }
+        let mass = scalar::wide(body.mass()).max(f64::MIN_POSITIVE);
+        let pull = scalar::vector(world.gravity) * scalar::wide(body.gravity_scale())
+            + scalar::vector(body.user_force()) / mass;
+        Some(Self { start: standing.grown(turn(angle)), velocity, pull })
     }
-    let centre = scalar::vector(body.center_of_mass());
-    let arm = (standing.low.coords - centre).abs().sup(&(standing.high.coords - centre).abs());
-    let turn = |angle: f64| arm.norm() * angle.min(2.0);
-    let angle = scalar::vector(body.angvel()).norm() * dt;
-    let velocity = scalar::vector(body.linvel());
-    if body.is_kinematic() {
-        let step = scalar::pose(body.position()).inverse() * scalar::pose(body.next_position());
-        let set = step.translation.vector.norm() + turn(step.rotation.angle());
-        let grown = standing.grown(set.max(velocity.norm() * dt + turn(angle)));
-        return Some(Track::still(grown));
+
+    /// The box within which it stays from one time to another [s].
+    fn part(&self, times: [f64; 2]) -> Extent {
+        let path = Extent::of_part(&Point3::origin(), &self.velocity, &self.pull, times);
+        let (low, high) = (path.low.coords, path.high.coords);
+        Extent { low: self.start.low + low, high: self.start.high + high }
     }
-    let mass = scalar::wide(body.mass()).max(f64::MIN_POSITIVE);
-    let pull = scalar::vector(world.gravity) * scalar::wide(body.gravity_scale())
-        + scalar::vector(body.user_force()) / mass;
-    Some(Track::over(dt, |from, to| {
-        let path = Extent::of_part(&Point3::origin(), &velocity, &pull, [from, to]);
-        let (low, high) = (standing.low + path.low.coords, standing.high + path.high.coords);
-        Some(Extent { low, high }.grown(turn(angle)))
-    }))
 }
 
 pub(crate) fn extent(aabb: &Aabb) -> Extent {
