@@ -22,23 +22,21 @@ const ROUNDINGS: f64 = 8.0;
 /// What is kept of one body.
 #[derive(Clone, Copy)]
 struct Glance {
-    /// Generation of the handle; [`UNKNOWN`] for a body that must be looked at closely.
-    generation: u32,
-    /// Must be looked at closely wherever it is: an encounter or a shadow may have to end.
-    busy: bool,
-    /// Its flag was up in the last step: what the embedder set may only have come into force in
-    /// that step.
-    late: bool,
+    /// Generation of the handle, and [`BUSY`], [`LATE`]: one number to compare.
+    tag: u64,
     /// Radius about the body's origin that holds its colliders [m].
     outline: f64,
     /// How far from its origin a body without velocity could meet something in a step [m].
     reach: f64,
 }
 
-/// No handle's generation.
-const UNKNOWN: u32 = u32::MAX;
-const NEW: Glance =
-    Glance { generation: UNKNOWN, busy: true, late: false, outline: 0.0, reach: 0.0 };
+/// Must be looked at closely wherever it is: an encounter or a shadow may have to end.
+const BUSY: u64 = 1 << 32;
+/// The body's flag was up in the last step: what the embedder set may only have come into force in
+/// that step.
+const LATE: u64 = 1 << 33;
+/// A body that nobody has looked at; no tag of another one.
+const NEW: Glance = Glance { tag: u64::MAX, outline: 0.0, reach: 0.0 };
 
 /// What is kept of every body, by the index of its handle.
 #[derive(Default)]
@@ -82,8 +80,10 @@ impl Glances {
         self.targets.clear();
         self.targets.extend(lies.iter().map(|lie| target(&lie.extent)));
         self.find_changed(colliders);
-        let other_span = self.span != span;
-        self.span = span;
+        if self.span != span {
+            self.span = span;
+            self.list.iter_mut().for_each(|glance| glance.tag |= LATE);
+        }
         let time = span.dt * (1.0 + MARGIN);
         for (handle, rb) in bodies.iter() {
             let (index, generation) = handle.into_raw_parts();
@@ -93,14 +93,11 @@ impl Glances {
             }
             let glance = &mut self.list[index];
             let changed = rb.has_modified_flag();
-            if changed || glance.generation != generation || glance.late || other_span {
-                if glance.generation != generation {
-                    *glance = Glance { generation, ..NEW };
-                }
-                glance.read(rb, &span);
-                glance.late = changed;
+            if glance.tag != u64::from(generation) || changed {
+                glance.renew(rb, generation, changed, &span);
             }
-            if glance.busy || self.targets.iter().any(|t| may_reach(rb, glance.reach, time, t)) {
+            let is_busy = glance.tag & BUSY != 0;
+            if is_busy || self.targets.iter().any(|t| may_reach(rb, glance.reach, time, t)) {
                 picked.push(handle);
             }
         }
@@ -124,21 +121,32 @@ impl Glances {
     /// Makes sure that `body` is looked at closely in the next step.
     pub fn forget(&mut self, body: RigidBodyHandle) {
         if let Some(glance) = self.list.get_mut(body.into_raw_parts().0 as usize) {
-            glance.generation = UNKNOWN;
+            *glance = NEW;
         }
     }
 
     /// Keeps what a close look has found.
     pub fn keep(&mut self, body: RigidBodyHandle, rb: &RigidBody, tracked: &Tracked) {
         let Some(glance) = self.list.get_mut(body.into_raw_parts().0 as usize) else { return };
-        glance.busy =
-            tracked.live.is_some() || tracked.shadow.is_some() || !tracked.near.is_empty();
+        let busy = tracked.live.is_some() || tracked.shadow.is_some() || !tracked.near.is_empty();
+        glance.tag = if busy { glance.tag | BUSY } else { glance.tag & !BUSY };
         glance.outline = tracked.radius + arm(rb);
         glance.read(rb, &self.span);
     }
 }
 
 impl Glance {
+    /// Makes the glance one of the body that now has its index.
+    fn renew(&mut self, rb: &RigidBody, generation: u32, changed: bool, span: &Span) {
+        if self.tag & !(BUSY | LATE) != u64::from(generation) {
+            *self = Self { tag: u64::from(generation) | BUSY, ..NEW };
+        }
+        if changed || self.tag & LATE != 0 {
+            self.read(rb, span);
+        }
+        self.tag = if changed { self.tag | LATE } else { self.tag & !LATE };
+    }
+
     /// Reads what an embedder may have changed on the body itself.
     fn read(&mut self, rb: &RigidBody, span: &Span) {
         let mass = scalar::wide(rb.mass()).max(f64::MIN_POSITIVE);
