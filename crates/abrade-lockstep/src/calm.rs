@@ -11,19 +11,39 @@ const PERIODS: f64 = 3.0;
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Calm {
     slow: f64,
+    still: f64,
+    /// It only rings on its springs, though it may wear as it slides along.
+    pub is_slow: bool,
     /// It rests on a contact of Rapier's.
     pub rests: bool,
 }
 
+/// What a step showed of a body.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Seen {
+    /// Speed along the surfaces' normals [m/s], and the one below which it is slow.
+    pub speed: f64,
+    pub limit: f64,
+    pub touches: bool,
+    /// A node has flowed.
+    pub wears: bool,
+    /// Period on its springs [s].
+    pub period: f64,
+    pub dt: f64,
+}
+
 impl Calm {
-    /// Looks at the body after a step of `dt` [s] whose contact has the given `period` [s].
-    pub fn watch(&mut self, speed: f64, limit: f64, touching: bool, period: f64, dt: f64) {
-        if speed >= limit {
+    /// Looks at the body after a step.
+    pub fn watch(&mut self, seen: &Seen) {
+        if seen.speed >= seen.limit {
             self.slow = 0.0;
-        } else if touching {
-            self.slow += dt;
-            self.rests = self.slow > PERIODS * period;
+        } else if seen.touches {
+            self.slow += seen.dt;
         }
+        self.still = if seen.wears { 0.0 } else { self.still + seen.dt };
+        let long = PERIODS * seen.period;
+        self.is_slow = self.slow > long;
+        self.rests = self.is_slow && self.still > long;
     }
 
     /// Back to springs.

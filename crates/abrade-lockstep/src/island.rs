@@ -6,7 +6,7 @@ use rapier::geometry::{ColliderHandle, NarrowPhase};
 use rapier::math::Vector;
 use rapier::pipeline::{ActiveHooks, PhysicsWorld};
 
-use crate::calm::normal_speed;
+use crate::calm::{Seen, normal_speed};
 use crate::convert::{state, to_vector};
 use crate::filter::Filter;
 use crate::pairs::Pairs;
@@ -248,10 +248,15 @@ impl Island {
         }
         let mut changed = false;
         for wearer in self.wearers.iter_mut().filter(|w| !w.calm.rests) {
-            let speed = normal_speed(&wearer.body, surfaces);
-            let touching = wearer.contact.in_contact();
-            let period = wearer.contact.period();
-            wearer.calm.watch(speed, limit, touching, period, h);
+            let seen = Seen {
+                speed: normal_speed(&wearer.body, surfaces),
+                limit,
+                touches: wearer.contact.in_contact(),
+                wears: wearer.wears,
+                period: wearer.contact.period(),
+                dt: h,
+            };
+            wearer.calm.watch(&seen);
             changed |= wearer.calm.rests;
         }
         if changed {

@@ -25,6 +25,10 @@ pub struct Wearer {
     /// By how much each surface is lowered for this body, which an engine left inside it [m].
     lifts: Vec<f64>,
     worn: Vec<f64>,
+    /// Volumes displaced before a step [m3].
+    mark: Vec<f64>,
+    /// A node has flowed in the last step.
+    pub(crate) wears: bool,
     booked: Ledger,
     seen: u64,
 }
@@ -53,6 +57,8 @@ impl Wearer {
             impulse: Vector3::zeros(),
             contact_time: 0.0,
             worn: vec![0.0; lifts.len()],
+            mark: vec![0.0; lifts.len()],
+            wears: false,
             lifts,
             booked: Ledger::default(),
             seen: 0,
@@ -71,6 +77,11 @@ impl Wearer {
     /// True when it rests on a contact of Rapier's.
     pub fn rests(&self) -> bool {
         self.calm.rests
+    }
+
+    /// True when it only rings on its springs, though it may wear as it slides along.
+    pub fn is_slow(&self) -> bool {
+        self.calm.is_slow
     }
 
     /// Volume displaced on each surface since it joined the island [m3].
@@ -158,16 +169,16 @@ impl Wearer {
         surfaces: &mut [Placed<'_>],
         dt: f64,
     ) -> Result<(), PhysicsError> {
-        let displaced = |surfaces: &[Placed<'_>], worn: &mut [f64], sign: f64| {
-            for (placed, worn) in surfaces.iter().zip(worn) {
-                *worn += sign * placed.surface.worn().displaced();
-            }
-        };
-        let mut gained = vec![0.0; self.worn.len()];
-        displaced(surfaces, &mut gained, -1.0);
+        for (mark, placed) in self.mark.iter_mut().zip(surfaces.iter()) {
+            *mark = placed.surface.worn().displaced();
+        }
         self.lowered(surfaces, |contact, body, surfaces| contact.follow(body, surfaces))?;
-        displaced(surfaces, &mut gained, 1.0);
-        self.worn.iter_mut().zip(gained).for_each(|(worn, gained)| *worn += gained);
+        self.wears = false;
+        for ((worn, mark), placed) in self.worn.iter_mut().zip(&self.mark).zip(surfaces.iter()) {
+            let gained = placed.surface.worn().displaced() - mark;
+            *worn += gained;
+            self.wears |= gained > 0.0;
+        }
         self.impulse += self.grip.force * dt;
         if self.contact.in_contact() {
             self.contact_time += dt;

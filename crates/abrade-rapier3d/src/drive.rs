@@ -1,14 +1,14 @@
 //! Driven bodies: kinematic in Rapier, carried by the core's indentation and slide.
 
 use abrade::{Body, Drive, Driven, Ledger, PhysicsError, Placed};
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Vector3};
 use rapier::dynamics::{RigidBodyHandle, RigidBodySet};
 
 use crate::error::WearError;
 use crate::observer::{Relay, WearObserver};
-use crate::path::Extent;
 use crate::scalar;
 use crate::surface::{SurfaceId, WornCollider};
+use crate::track::Trace;
 use crate::world::WearWorld;
 
 /// A driven body and its course; the core's state is in the surface's frame.
@@ -84,11 +84,11 @@ impl DrivenBody {
         dt: f64,
         observer: &mut dyn WearObserver,
     ) -> Result<abrade::Advance, PhysicsError> {
-        let seen = Extent { low: self.body.state.position, high: self.body.state.position };
+        let trace = Trace::new(self.body.state.position, Vector3::zeros(), dt);
         let surfaces = vec![self.surface];
-        let mut relay = Relay { observer, body: self.handle, frame, surfaces, began: 0.0, seen };
+        let mut relay = Relay { observer, body: self.handle, frame, surfaces, began: 0.0, trace };
         let pose = Isometry3::identity();
-        let mut placed = [Placed { surface: &mut worn.surface, pose }];
+        let mut placed = [Placed { surface: worn.owned(), pose }];
         let mut steps = 0;
         if !self.indented {
             steps = self.driven.indent(&mut self.body, &mut placed, &mut relay)?.steps;

@@ -11,6 +11,7 @@ use crate::obstacle::{Obstacles, interact};
 use crate::path::Extent;
 use crate::scalar;
 use crate::surface::{SurfaceId, WornCollider};
+use crate::track::Track;
 use crate::tracked::Tracked;
 use crate::view::WorldView;
 
@@ -23,7 +24,7 @@ pub(crate) struct Lie {
     /// Its frame in the world.
     pub pose: Isometry3<f64>,
     /// Box around its nodes, in the world.
-    extent: Extent,
+    pub extent: Extent,
 }
 
 /// Where the surfaces lie; those whose proxy is gone or disabled are left out.
@@ -60,6 +61,11 @@ impl Course {
         Self { state, acceleration, radius: tracked.radius * (1.0 + MARGIN) + rounding }
     }
 
+    /// Radius with its margin [m].
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
     /// The course of a body of `radius` [m] from `state`, in the world.
     pub fn from_state(state: State, acceleration: Vector3<f64>, radius: f64) -> Self {
         Self { state, acceleration, radius: radius * (1.0 + MARGIN) }
@@ -67,28 +73,54 @@ impl Course {
 
     /// Box around the body over `dt` [s], in the frame that `frame` places.
     fn region(&self, frame: &Isometry3<f64>, dt: f64) -> Extent {
-        let state = self.state.seen_from(frame);
-        let acceleration = frame.inverse_transform_vector(&self.acceleration);
-        Extent::of_path(&state.position, &state.velocity, &acceleration, dt).grown(self.radius)
+        self.seen_from(frame).part([0.0, dt])
     }
 
-    /// As [`Course::region`], in the frame of a surface with the given bounds, as far as the body
-    /// can get before it must have met the surface: no centre of mass gets below its lowest plane.
-    /// A body that may go over the surface's border is followed to the end.
-    pub fn region_before(&self, frame: &Isometry3<f64>, bounds: &Extent, dt: f64) -> Extent {
-        let state = self.state.seen_from(frame);
-        let pull = frame.inverse_transform_vector(&self.acceleration).z;
-        let time = time_to_fall(state.position.z - bounds.low.z, state.velocity.z, pull).min(dt);
-        let cut = self.region(frame, time);
+    fn seen_from(&self, frame: &Isometry3<f64>) -> Self {
+        let acceleration = frame.inverse_transform_vector(&self.acceleration);
+        Self { state: self.state.seen_from(frame), acceleration, radius: self.radius }
+    }
+
+    /// Box around the body from one time to another [s].
+    fn part(&self, times: [f64; 2]) -> Extent {
+        let State { position, velocity, .. } = &self.state;
+        Extent::of_part(position, velocity, &self.acceleration, times).grown(self.radius)
+    }
+
+    /// The track of the body over `dt` [s] in the frame of a surface with the given bounds, as
+    /// far as it can get before it must have met the surface: no centre of mass gets below its
+    /// lowest plane. A body that may go over the surface's border is followed to the end.
+    pub fn track_before(&self, frame: &Isometry3<f64>, bounds: &Extent, dt: f64) -> Track {
+        let local = self.seen_from(frame);
+        let fall = local.time_to_fall(bounds).min(dt);
+        match local.part([0.0, fall]).is_over(bounds) {
+            true => Track::over(dt, |from, to| {
+                let part = || local.part([from, to.min(fall)]).above(bounds.low.z);
+                (from <= fall).then(part)
+            }),
+            false => Track::over(dt, |from, to| Some(local.part([from, to]))),
+        }
+    }
+
+    /// Box around [`Course::track_before`].
+    fn region_before(&self, frame: &Isometry3<f64>, bounds: &Extent, dt: f64) -> Extent {
+        let local = self.seen_from(frame);
+        let cut = local.part([0.0, local.time_to_fall(bounds).min(dt)]);
         match cut.is_over(bounds) {
             true => cut.above(bounds.low.z),
-            false => self.region(frame, dt),
+            false => local.part([0.0, dt]),
         }
+    }
+
+    /// Time after which the centre of mass is at the lowest plane of the bounds [s].
+    fn time_to_fall(&self, bounds: &Extent) -> f64 {
+        let State { position, velocity, .. } = &self.state;
+        time_to_fall(position.z - bounds.low.z, velocity.z, self.acceleration.z)
     }
 
     /// Box around wherever the body may be flung over `dt` [s], in `frame`: no contact with a
     /// surface at rest makes it faster than its energy allows.
-    fn reach(&self, frame: &Isometry3<f64>, dt: f64) -> Extent {
+    pub fn reach(&self, frame: &Isometry3<f64>, dt: f64) -> Extent {
         let spin = self.state.spin.norm() * self.radius;
         let speed = self.state.velocity.norm().hypot(spin) + self.acceleration.norm() * dt;
         let centre = frame.inverse_transform_point(&self.state.position);
@@ -129,19 +161,38 @@ impl Way<'_> {
     /// The obstacle on the body's `course` over `dt` [s] before it meets the surface, if there
     /// is one.
     pub fn on_course(&self, course: &Course, dt: f64) -> Option<Refusal> {
-        self.within(&course.region_before(&self.frame, &self.bounds, dt))
+        self.on(&course.track_before(&self.frame, &self.bounds, dt))
+    }
+
+    /// The obstacle on the body's `course` for `time` [s] from when it `began` [s], in a step of
+    /// `dt` [s].
+    pub fn ahead(&self, course: &Course, time: f64, began: f64, dt: f64) -> Option<Refusal> {
+        let region = course.region_before(&self.frame, &self.bounds, time);
+        self.on(&Track::during([began, began + time], dt, region))
     }
 
     /// The obstacle that the body could reach in `dt` [s] whatever the contact does to it.
     pub fn in_reach(&self, course: &Course, dt: f64) -> Option<Refusal> {
         let reach = course.reach(&self.frame, dt);
-        let over = reach.is_over(&self.bounds);
-        self.within(&if over { reach.above(self.bounds.low.z) } else { reach })
+        self.on(&self.over(&Track::still(reach)))
     }
 
-    fn within(&self, region: &Extent) -> Option<Refusal> {
+    /// The obstacle on the track of a body that has been there.
+    pub fn on_track(&self, track: &Track) -> Option<Refusal> {
+        self.on(&self.over(track))
+    }
+
+    /// The track without what lies below the surface, and so behind it.
+    fn over(&self, track: &Track) -> Track {
+        match track.whole().is_some_and(|whole| whole.is_over(&self.bounds)) {
+            true => track.map(|extent| extent.above(self.bounds.low.z)),
+            false => track.clone(),
+        }
+    }
+
+    fn on(&self, track: &Track) -> Option<Refusal> {
         let own = self.rb.colliders();
-        let found = self.obstacles.in_way(self.body, own, region, &self.frame, self.colliders);
+        let found = self.obstacles.in_way(self.body, own, track, &self.frame, self.colliders);
         found.map(|collider| Refusal::Obstructed { collider })
     }
 }

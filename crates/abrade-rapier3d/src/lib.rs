@@ -6,14 +6,16 @@
 //!
 //! A step goes through these stages:
 //! 1. choose: bodies whose path over the step comes near a wear surface, fixed order;
-//! 2. gate: a body with a joint, with something else in its way, or of a shape that the model
+//! 2. ahead: each of them is run as if it were alone, in parallel;
+//! 3. gate: a body with a joint, with something else in its way, or of a shape that the model
 //!    lacks is refused and raises an event; Rapier keeps its contact for that step;
-//! 3. resolve (Micro): the others are carried through the whole step in `f64` by
-//!    [`abrade::Encounter`], in a frame that lies on the surface;
-//! 4. steer: their velocities are set so that Rapier lands where the integration ended, and the
+//! 4. resolve (Micro): the others are carried through the whole step in `f64` by
+//!    [`abrade::Encounter`], in a frame that lies on the surface; what was done ahead is taken
+//!    over where it would be the same now;
+//! 5. steer: their velocities are set so that Rapier lands where the integration ended, and the
 //!    pairs body x proxy are filtered out;
-//! 5. engine: Rapier's own step, with the embedder's hooks chained behind ours;
-//! 6. settle: poses and end velocities are written, events raised.
+//! 6. engine: Rapier's own step, with the embedder's hooks chained behind ours;
+//! 7. settle: poses and end velocities are written, events raised.
 //!
 //! The `f32` and `f64` packages are one source; only [`scalar`] knows the difference.
 #![forbid(unsafe_code)]
@@ -23,18 +25,24 @@ pub use abrade;
 pub use rapier;
 
 mod afloat;
+mod ahead;
 mod approach;
+mod bins;
 mod booking;
+mod changed;
 mod derive;
 mod drive;
 mod error;
 mod event;
 mod gate;
+mod glance;
 mod guard;
 mod held;
+mod hold;
 mod lay;
 mod lockstep;
 mod micro;
+mod neighbours;
 mod observer;
 mod obstacle;
 mod path;
@@ -42,13 +50,16 @@ mod quasi_static;
 mod register;
 mod resolve;
 mod resolver;
+mod rest;
 pub mod scalar;
 mod settings;
 mod settle;
 mod shadow;
+mod start;
 mod steer;
 mod step;
 mod surface;
+mod track;
 mod tracked;
 mod view;
 mod world;

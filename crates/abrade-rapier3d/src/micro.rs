@@ -1,18 +1,16 @@
 //! The Micro resolver: one body carried through a whole step by the core, on its own.
 
-use abrade::{Advance, Body, Encounter, Loads, PhysicsError, Placed, Until};
+use abrade::{Advance, Body, Changes, Encounter, Loads, PhysicsError, Placed, Surface, Until};
 use nalgebra::{Isometry3, Vector3};
 
+use crate::changed::Changed;
 use crate::gate::{Course, Lie, Way};
 use crate::observer::Relay;
 use crate::surface::{SurfaceId, WornCollider};
 use crate::tracked::Live;
 
-/// Parts of a step between which a body with something in reach looks where it goes.
-const SLICES: f64 = 64.0;
-
-/// Share of its radius by which a body may lie inside a surface and be lifted out of it.
-const LIFT: f64 = 0.2;
+/// Parts of a step between which a body with something in its way looks where it goes.
+const PARTS: u32 = 64;
 
 /// How far a body is carried, and what acts on it.
 pub(crate) struct Errand<'a> {
@@ -21,39 +19,20 @@ pub(crate) struct Errand<'a> {
     /// Duration [s].
     pub dt: f64,
     pub until: Until,
+    /// Something is in the way: look part by part.
+    pub in_parts: bool,
 }
 
+/// Volumes displaced, surface by surface [m3].
+pub(crate) type Volumes = Vec<(SurfaceId, f64)>;
+
 impl Live {
-    /// An encounter of `body` with the given surfaces.
-    pub fn new(
-        body: &Body,
-        ids: &[SurfaceId],
-        surfaces: &[WornCollider],
-        settings: abrade::EncounterSettings,
-    ) -> Result<Self, PhysicsError> {
-        let met = ids.iter().map(|id| &surfaces[id.0].surface);
-        let encounter = Encounter::new(body, met, settings)?;
-        Ok(Self { encounter, surfaces: ids.to_vec() })
+    /// A running encounter with the given surfaces.
+    pub fn new(encounter: Encounter, surfaces: Vec<SurfaceId>) -> Self {
+        Self { encounter, surfaces }
     }
 
-    /// Lifts a body that an engine left inside the surfaces until it is clear of them.
-    pub fn lift(
-        &mut self,
-        body: &mut Body,
-        surfaces: &mut [WornCollider],
-        lies: &[Lie],
-        frame: &Isometry3<f64>,
-    ) {
-        let placed = place(surfaces, &self.surfaces, lies, frame);
-        let overlap = self.encounter.overlap(body, &placed);
-        if overlap < LIFT * body.shape.bounding_radius() {
-            body.state.position.z += overlap;
-        }
-    }
-
-    /// Carries `body`, whose state is given in the frame of the first surface. Where something
-    /// stands within reach, it goes slice by slice and stops short of what it would run into, as
-    /// under Rapier's own clamp: the rest of the step is lost to it.
+    /// Carries `body`, whose state is given in the frame of the first surface. Where changes are noted, the surfaces are worn by way of leaves, which know theirs.
     pub fn carry(
         &mut self,
         body: &mut Body,
@@ -61,65 +40,136 @@ impl Live {
         lies: &[Lie],
         errand: &Errand<'_>,
         relay: &mut Relay<'_>,
-    ) -> Result<Advance, PhysicsError> {
-        let frame = errand.way.frame;
-        let mut placed = place(surfaces, &self.surfaces, lies, &frame);
-        let mut go = |body: &mut Body, time: f64, relay: &mut Relay<'_>| {
-            self.encounter.advance(body, &mut placed, &errand.loads, time, errand.until, relay)
+        changed: &mut Changed,
+    ) -> (Result<Advance, PhysicsError>, Volumes) {
+        let poses = poses(&self.surfaces, lies, &errand.way.frame);
+        let mut go = |placed: &mut [Placed<'_>]| match errand.in_parts {
+            true => go_in_parts(&mut self.encounter, body, placed, errand, relay),
+            false => go(&mut self.encounter, body, placed, errand, errand.dt, relay),
         };
-        let course = errand.course(body);
-        if errand.way.in_reach(&course, errand.dt).is_none() {
-            return go(body, errand.dt, relay);
+        if changed.is_noted() {
+            let leaf = |id: &SurfaceId| Surface::leaf(&surfaces[id.0].surface);
+            let mut leaves: Vec<Surface> = self.surfaces.iter().map(leaf).collect();
+            let result = go(&mut placed(leaves.iter_mut(), &poses));
+            let changes: Vec<_> = leaves.into_iter().map(Surface::into_changes).collect();
+            return (result, apply(&self.surfaces, &changes, surfaces, changed));
         }
-        let slice = errand.dt / SLICES;
-        let mut total = Advance::default();
-        for number in 1..=SLICES as u32 {
-            if errand.way.on_course(&errand.course(body), slice).is_some() {
-                break;
-            }
-            relay.began = total.time;
-            let part = go(body, f64::from(number) * slice - total.time, relay)?;
-            total.time += part.time;
-            total.steps += part.steps;
-            total.node_evaluations += part.node_evaluations;
-            total.impulse += part.impulse;
-            total.contact_time += part.contact_time;
-            total.exited = part.exited;
-            if total.exited {
-                break;
-            }
-        }
-        Ok(total)
+        let result = go(&mut place(surfaces, &self.surfaces, &poses));
+        let worn = |id: &SurfaceId| (*id, surfaces[id.0].owned().settle().displaced());
+        (result, self.surfaces.iter().map(worn).collect())
     }
 }
 
 impl Errand<'_> {
+    /// What the loads accelerate the body by, in the frame [m/s2].
+    pub fn pull(&self, body: &Body) -> Vector3<f64> {
+        self.loads.gravity + self.loads.force / body.inertia.mass
+    }
+
     /// The free course of `body` from its present state, in the world.
     fn course(&self, body: &Body) -> Course {
         let frame = &self.way.frame;
-        let acceleration: Vector3<f64> =
-            frame * (self.loads.gravity + self.loads.force / body.inertia.mass);
+        let acceleration = frame * self.pull(body);
         Course::from_state(body.state.placed_by(frame), acceleration, body.shape.bounding_radius())
     }
 }
 
-/// The surfaces `ids` where they lie in `frame`, the first one exactly at its origin.
-pub(crate) fn place<'a>(
-    surfaces: &'a mut [WornCollider],
+fn go(
+    encounter: &mut Encounter,
+    body: &mut Body,
+    placed: &mut [Placed<'_>],
+    errand: &Errand<'_>,
+    time: f64,
+    relay: &mut Relay<'_>,
+) -> Result<Advance, PhysicsError> {
+    encounter.advance(body, placed, &errand.loads, time, errand.until, relay)
+}
+
+/// Carries a body that something is in the way of: part by part, and it stops short of what it
+/// would run into, as under Rapier's own clamp. The rest of the step is lost to it.
+fn go_in_parts(
+    encounter: &mut Encounter,
+    body: &mut Body,
+    placed: &mut [Placed<'_>],
+    errand: &Errand<'_>,
+    relay: &mut Relay<'_>,
+) -> Result<Advance, PhysicsError> {
+    let part_time = errand.dt / f64::from(PARTS);
+    let mut total = Advance::default();
+    for number in 1..=PARTS {
+        let course = errand.course(body);
+        if errand.way.ahead(&course, part_time, total.time, errand.dt).is_some() {
+            break;
+        }
+        relay.began = total.time;
+        let time = f64::from(number) * part_time - total.time;
+        let part = go(encounter, body, placed, errand, time, relay)?;
+        total.time += part.time;
+        total.steps += part.steps;
+        total.node_evaluations += part.node_evaluations;
+        total.impulse += part.impulse;
+        total.contact_time += part.contact_time;
+        total.exited = part.exited;
+        if total.exited {
+            break;
+        }
+    }
+    Ok(total)
+}
+
+/// Takes over what leaves have worn; returns the volumes.
+pub(crate) fn apply(
+    ids: &[SurfaceId],
+    changes: &[Changes],
+    surfaces: &mut [WornCollider],
+    changed: &mut Changed,
+) -> Volumes {
+    let pairs = ids.iter().zip(changes);
+    pairs
+        .map(|(id, changes)| {
+            let worn = &mut surfaces[id.0];
+            worn.owned().apply(changes);
+            changed.add(id.0, worn, changes);
+            (*id, changes.gain().displaced())
+        })
+        .collect()
+}
+
+/// Where the surfaces `ids` lie in `frame`, the first one exactly at its origin.
+pub(crate) fn poses(
     ids: &[SurfaceId],
     lies: &[Lie],
     frame: &Isometry3<f64>,
+) -> Vec<Isometry3<f64>> {
+    let pose = |(order, id): (usize, &SurfaceId)| match lies.iter().find(|lie| lie.id == *id) {
+        Some(lie) if order > 0 => frame.inv_mul(&lie.pose),
+        _ => Isometry3::identity(),
+    };
+    ids.iter().enumerate().map(pose).collect()
+}
+
+/// The surfaces at their poses.
+pub(crate) fn placed<'a>(
+    surfaces: impl Iterator<Item = &'a mut Surface>,
+    poses: &[Isometry3<f64>],
 ) -> Vec<Placed<'a>> {
-    let mut placed: Vec<(usize, Placed<'a>)> = Vec::with_capacity(ids.len());
+    surfaces.zip(poses).map(|(surface, pose)| Placed { surface, pose: *pose }).collect()
+}
+
+/// The surfaces `ids` themselves at their poses, in that order, to be worn.
+pub(crate) fn place<'a>(
+    surfaces: &'a mut [WornCollider],
+    ids: &[SurfaceId],
+    poses: &[Isometry3<f64>],
+) -> Vec<Placed<'a>> {
+    let mut owned: Vec<(usize, &mut Surface)> = Vec::with_capacity(ids.len());
     for (index, worn) in surfaces.iter_mut().enumerate() {
-        let Some(order) = ids.iter().position(|id| id.0 == index) else { continue };
-        let lie = lies.iter().find(|lie| lie.id.0 == index);
-        let pose = match (order, lie) {
-            (0, _) | (_, None) => Isometry3::identity(),
-            (_, Some(lie)) => frame.inv_mul(&lie.pose),
-        };
-        placed.push((order, Placed { surface: &mut worn.surface, pose }));
+        if let Some(order) = ids.iter().position(|id| id.0 == index) {
+            let surface = worn.owned();
+            surface.settle();
+            owned.push((order, surface));
+        }
     }
-    placed.sort_by_key(|(order, _)| *order);
-    placed.into_iter().map(|(_, placed)| placed).collect()
+    owned.sort_by_key(|(order, _)| *order);
+    placed(owned.into_iter().map(|(_, surface)| surface), poses)
 }

@@ -4,8 +4,8 @@ use abrade::{Instant, Observer, State};
 use nalgebra::{Isometry3, Vector3};
 use rapier::dynamics::RigidBodyHandle;
 
-use crate::path::Extent;
 use crate::surface::SurfaceId;
+use crate::track::Trace;
 
 /// An accepted contact step of one body.
 pub struct MicroStep<'a, 'b> {
@@ -26,6 +26,12 @@ pub struct MicroStep<'a, 'b> {
 pub trait WearObserver {
     /// Called once per accepted contact step, body after body.
     fn micro_step(&mut self, step: &MicroStep<'_, '_>);
+
+    /// Whether it sees anything: a step that is watched is done body after body, with the same
+    /// results to the bit.
+    fn watches(&self) -> bool {
+        true
+    }
 }
 
 impl MicroStep<'_, '_> {
@@ -43,6 +49,10 @@ impl MicroStep<'_, '_> {
 /// Sees nothing.
 impl WearObserver for () {
     fn micro_step(&mut self, _: &MicroStep<'_, '_>) {}
+
+    fn watches(&self) -> bool {
+        false
+    }
 }
 
 /// Passes the core's instants on, with body, frame and time added.
@@ -53,13 +63,13 @@ pub(crate) struct Relay<'a> {
     pub surfaces: Vec<SurfaceId>,
     /// Time of the embedder's step at which the call into the core began [s].
     pub began: f64,
-    /// Box around the centres of mass seen, in `frame`.
-    pub seen: Extent,
+    /// Where the centre of mass was, in `frame`.
+    pub trace: Trace,
 }
 
 impl Observer for Relay<'_> {
     fn observe(&mut self, instant: &Instant<'_, '_>) {
-        self.seen.hold(&instant.state.position);
+        self.trace.go(self.began + instant.time, &instant.state.position);
         self.observer.micro_step(&MicroStep {
             body: self.body,
             time: self.began + instant.time,

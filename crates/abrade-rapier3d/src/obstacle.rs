@@ -1,167 +1,199 @@
 //! Everything solid that is no wear surface, as it may stand in a body's way over a step.
 //! Collected only when a body comes near a wear surface.
 
-use nalgebra::{Isometry3, Point3};
+use std::collections::BTreeMap;
+
+use nalgebra::{Isometry3, Point3, Vector3};
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{Aabb, Collider, ColliderHandle, ColliderSet};
-use rapier::math::{Pose, Vector};
-use rapier::parry::query::{ShapeCastOptions, cast_shapes, intersection_test};
-use rapier::parry::shape::Cuboid;
+use rapier::math::Pose;
+use rapier::parry::query::intersection_test;
+use rapier::parry::shape::{Cuboid, Shape};
 
+use crate::bins::Bins;
 use crate::path::Extent;
 use crate::scalar;
+use crate::track::{SLICES, Track};
 use crate::view::WorldView;
 
-/// A collider, and the box within which it stays over the step.
+/// A collider, and where it is over the step.
 struct Obstacle {
     collider: ColliderHandle,
     body: Option<RigidBodyHandle>,
+    /// Box around all of it.
     extent: Extent,
-    moves: bool,
+    /// Where it is slice by slice, by its place among the tracks, if it moves.
+    track: Option<usize>,
 }
 
 /// The colliders of a step that bodies may run into.
 #[derive(Default)]
 pub(crate) struct Obstacles {
     list: Vec<Obstacle>,
+    tracks: Vec<Track>,
+    bins: Bins,
+    /// The places in the list of bodies that may be given another track.
+    of_body: BTreeMap<(u32, u32), Vec<u32>>,
 }
 
 impl Obstacles {
     /// Forgets the last step's.
     pub fn clear(&mut self) {
         self.list.clear();
+        self.tracks.clear();
+        self.of_body.clear();
     }
 
-    /// Collects the solid colliders of a step, `is_proxy` ones apart.
-    /// `course` gives the box of bodies that are themselves on their way to a wear surface.
-    pub fn collect(
+    /// Collects the solid colliders of a step that come into `reach`, `is_proxy` ones apart.
+    /// `course` gives the track of bodies that are themselves on their way to a wear surface.
+    pub fn collect<'a>(
         &mut self,
         world: &WorldView<'_>,
         dt: f64,
+        reach: &Extent,
         is_proxy: impl Fn(ColliderHandle) -> bool,
-        course: impl Fn(RigidBodyHandle) -> Option<Extent>,
+        course: impl Fn(RigidBodyHandle) -> Option<&'a Track>,
     ) {
         for (handle, collider) in world.colliders.iter_enabled() {
             if collider.is_sensor() || is_proxy(handle) {
                 continue;
             }
             let body = collider.parent();
-            let parent = body.and_then(|handle| world.bodies.get(handle));
-            let parent =
-                parent.filter(|rb| rb.is_dynamic() && !rb.is_sleeping() || rb.is_kinematic());
-            let standing = extent(&collider.compute_aabb());
-            let swept = || parent.map(|rb| swept(rb, &standing, world, dt));
-            let swept = body.and_then(&course).or_else(swept);
-            let (moves, extent) = (swept.is_some(), swept.unwrap_or(standing));
-            self.list.push(Obstacle { collider: handle, body, extent, moves });
-        }
-    }
-
-    /// Puts the box within which a body really stayed in place of the one it might have.
-    pub fn settle(&mut self, body: RigidBodyHandle, extent: Extent) {
-        for obstacle in self.list.iter_mut().filter(|o| o.body == Some(body)) {
-            obstacle.extent = extent;
-        }
-    }
-
-    /// True when another moving body comes to meet `body` in this step, faster than `limit` [m/s].
-    pub fn blow(&self, body: RigidBodyHandle, world: &WorldView<'_>, dt: f64, limit: f64) -> bool {
-        self.list.iter().filter(|o| o.body == Some(body)).any(|own| {
-            let Some(mine) = world.colliders.get(own.collider) else { return false };
-            let mut others = self.list.iter().filter(|o| o.moves && o.body != Some(body));
-            others.any(|other| {
-                other.extent.meets(&own.extent)
-                    && world.colliders.get(other.collider).is_some_and(|theirs| {
-                        interact(mine, theirs) && closes([mine, theirs], world, dt, limit)
-                    })
-            })
-        })
-    }
-
-    /// Shows everything but `body` itself that could meet one of its colliders in this step: the
-    /// colliders, and the bodies they are on.
-    pub fn show_near(
-        &self,
-        body: RigidBodyHandle,
-        colliders: &ColliderSet,
-        mut show: impl FnMut(ColliderHandle, Option<RigidBodyHandle>),
-    ) {
-        for own in self.list.iter().filter(|o| o.body == Some(body)) {
-            let Some(mine) = colliders.get(own.collider) else { continue };
-            let others = self.list.iter().filter(|o| o.body != Some(body));
-            for other in others.filter(|o| o.extent.meets(&own.extent)) {
-                if colliders.get(other.collider).is_some_and(|theirs| interact(mine, theirs)) {
-                    show(other.collider, other.body);
+            let own_course = body.and_then(&course);
+            let (track, extent) = match own_course.and_then(|track| Some((track, track.whole()?))) {
+                Some((track, whole)) => (Some(track.clone()), whole),
+                None => {
+                    let standing = extent(&collider.compute_aabb());
+                    let parent = body.and_then(|handle| world.bodies.get(handle));
+                    match parent.and_then(|rb| Sweep::of(rb, standing, world, dt)) {
+                        // Most bodies of a crowd are far: they need no track.
+                        Some(sweep) if !sweep.part([0.0, dt]).meets(reach) => continue,
+                        Some(sweep) => {
+                            let track = Track::over(dt, |from, to| Some(sweep.part([from, to])));
+                            (Some(track), sweep.part([0.0, dt]))
+                        }
+                        None => (None, standing),
+                    }
                 }
+            };
+            if !extent.meets(reach) {
+                continue;
+            }
+            if let (Some(body), true) = (body, own_course.is_some()) {
+                let places = self.of_body.entry(body.into_raw_parts()).or_default();
+                places.push(self.list.len() as u32);
+            }
+            let track = track.map(|track| {
+                self.tracks.push(track);
+                self.tracks.len() - 1
+            });
+            self.list.push(Obstacle { collider: handle, body, extent, track });
+        }
+        self.bins.lay(reach, SLICES, self.list.len());
+        for place in 0..self.list.len() {
+            self.sort_in(place);
+        }
+    }
+
+    fn sort_in(&mut self, place: usize) {
+        let obstacle = &self.list[place];
+        for number in 0..SLICES {
+            let extent = match obstacle.track {
+                Some(track) => self.tracks[track].slices()[number],
+                None => Some(obstacle.extent),
+            };
+            if let Some(extent) = extent {
+                self.bins.insert(number, &extent, place as u32);
             }
         }
     }
 
-    /// The first collider that `body` could run into within `region`, a box in `frame`.
+    /// Puts the track on which a body really was in place of the one it might have.
+    pub fn settle(&mut self, body: RigidBodyHandle, track: &Track) {
+        let Some(whole) = track.whole() else { return };
+        let places = self.of_body.get(&body.into_raw_parts()).cloned().unwrap_or_default();
+        for place in places.into_iter().map(|place| place as usize) {
+            let obstacle = &mut self.list[place];
+            obstacle.extent = whole;
+            if let Some(own) = obstacle.track {
+                self.tracks[own].clone_from(track);
+            }
+            self.sort_in(place);
+        }
+    }
+
+    /// Takes a body that is left to Rapier for being anywhere on its course all the time.
+    pub fn blur(&mut self, body: RigidBodyHandle) {
+        let places = self.of_body.get(&body.into_raw_parts());
+        if let Some(&place) = places.and_then(|places| places.first()) {
+            self.settle(body, &Track::still(self.list[place as usize].extent));
+        }
+    }
+
+    /// Forgets when anything is where: the step has become shorter than its slices were for.
+    pub fn forget_times(&mut self) {
+        for track in &mut self.tracks {
+            *track = track.whole().map_or_else(Track::nowhere, Track::still);
+        }
+        for place in 0..self.list.len() {
+            self.sort_in(place);
+        }
+    }
+
+    /// A collider that `body` could run into on `track`, given in `frame`.
     pub fn in_way(
         &self,
         body: RigidBodyHandle,
         own: &[ColliderHandle],
-        region: &Extent,
+        track: &Track,
         frame: &Isometry3<f64>,
         colliders: &ColliderSet,
     ) -> Option<ColliderHandle> {
-        let world_box = region.placed_by(frame);
-        let near = self.list.iter().filter(|o| o.body != Some(body) && o.extent.meets(&world_box));
-        let mut solid = near.filter(|o| {
-            colliders.get(o.collider).is_some_and(|other| {
+        let blocked = |number: usize, region: &Extent| {
+            let world_box = region.placed_by(frame);
+            let near = self.bins.find(number, &world_box).map(|place| &self.list[place as usize]);
+            let near = near.filter(|o| o.body != Some(body) && o.extent.meets(&world_box));
+            let mut solid = near.filter(|o| {
+                let Some(other) = colliders.get(o.collider) else { return false };
                 let mut own = own.iter().filter_map(|&handle| colliders.get(handle));
-                own.any(|mine| interact(mine, other)) && o.meets(region, frame, other)
-            })
-        });
-        solid.next().map(|o| o.collider)
+                own.any(|mine| interact(mine, other))
+                    && self.meets(o, number, (region, &world_box), frame, other)
+            });
+            solid.next().map(|o| o.collider)
+        };
+        let mut regions = track.slices().iter().enumerate();
+        regions.find_map(|(number, region)| blocked(number, region.as_ref()?))
+    }
+
+    /// Does `region` in `frame`, inside the box of the world, touch the obstacle's collider
+    /// itself, or the box it is in over the slice of time if it moves?
+    fn meets(
+        &self,
+        obstacle: &Obstacle,
+        slice: usize,
+        (region, world_box): (&Extent, &Extent),
+        frame: &Isometry3<f64>,
+        collider: &Collider,
+    ) -> bool {
+        let Some(own) = obstacle.track else {
+            return touches(region, frame, collider.position(), collider.shape());
+        };
+        self.tracks[own].slices()[slice].is_some_and(|other| {
+            let (pose, cuboid) = cuboid(&other, &Isometry3::identity());
+            other.meets(world_box) && touches(region, frame, &pose, &cuboid)
+        })
     }
 }
 
-impl Obstacle {
-    /// Does the box `region` in `frame` touch the collider itself, or the box it stays in if it
-    /// moves? Shapes that Rapier cannot test count as touched.
-    fn meets(&self, region: &Extent, frame: &Isometry3<f64>, collider: &Collider) -> bool {
-        let (pose, cuboid) = cuboid(region, frame);
-        let test = match self.moves {
-            true => {
-                let (own_pose, own) = self::cuboid(&self.extent, &Isometry3::identity());
-                intersection_test(&pose, &cuboid, &own_pose, &own)
-            }
-            false => intersection_test(&pose, &cuboid, collider.position(), collider.shape()),
-        };
-        test.map_or(true, |found| found.intersecting)
-    }
+/// Does the box `region` in `frame` touch the shape? Shapes that Rapier cannot test do.
+fn touches(region: &Extent, frame: &Isometry3<f64>, pose: &Pose, shape: &dyn Shape) -> bool {
+    let (own_pose, own) = cuboid(region, frame);
+    intersection_test(&own_pose, &own, pose, shape).map_or(true, |found| found.intersecting)
 }
 
 fn cuboid(region: &Extent, frame: &Isometry3<f64>) -> (Pose, Cuboid) {
     let centre = Isometry3::from(nalgebra::center(&region.low, &region.high));
     (scalar::to_pose(&(frame * centre)), Cuboid::new(scalar::to_vector(&region.half())))
-}
-
-/// Do two colliders that are apart meet within `dt` [s], as their bodies move now, faster than
-/// `limit` [m/s]?
-fn closes(pair: [&Collider; 2], world: &WorldView<'_>, dt: f64, limit: f64) -> bool {
-    let velocity = |collider: &Collider| {
-        let body = collider.parent().and_then(|handle| world.bodies.get(handle));
-        body.map_or(Vector::ZERO, RigidBody::linvel)
-    };
-    let [a, b] = pair;
-    let (va, vb) = (velocity(a), velocity(b));
-    let relative = scalar::vector(va) - scalar::vector(vb);
-    if relative.norm() <= limit {
-        return false;
-    }
-    let options = ShapeCastOptions {
-        stop_at_penetration: false,
-        ..ShapeCastOptions::with_max_time_of_impact(scalar::narrow(dt))
-    };
-    let (place_a, place_b) = (a.position(), b.position());
-    let hit = cast_shapes(place_a, va, a.shape(), place_b, vb, b.shape(), options);
-    hit.ok().flatten().is_some_and(|hit| {
-        let normal = scalar::vector(place_a.rotation * hit.normal1);
-        hit.time_of_impact > scalar::narrow(0.0) && relative.dot(&normal) > limit
-    })
 }
 
 /// Would Rapier solve a contact between the two?
@@ -172,26 +204,43 @@ pub(crate) fn interact(a: &Collider, b: &Collider) -> bool {
         && a.solver_groups().test(b.solver_groups())
 }
 
-/// The box within which a collider that now fills `standing` stays over the step, as long as its
-/// body meets nothing.
-fn swept(body: &RigidBody, standing: &Extent, world: &WorldView<'_>, dt: f64) -> Extent {
-    let centre = scalar::vector(body.center_of_mass());
-    let arm = (standing.low.coords - centre).abs().sup(&(standing.high.coords - centre).abs());
-    let turn = |angle: f64| arm.norm() * angle.min(2.0);
-    let angle = scalar::vector(body.angvel()).norm() * dt;
-    let velocity = scalar::vector(body.linvel());
-    if body.is_kinematic() {
-        let step = scalar::pose(body.position()).inverse() * scalar::pose(body.next_position());
-        let set = step.translation.vector.norm() + turn(step.rotation.angle());
-        return standing.grown(set.max(velocity.norm() * dt + turn(angle)));
+/// A collider on its way over the step, as long as its body meets nothing.
+pub(crate) struct Sweep {
+    /// The box that it fills at the start, grown by what turns may add.
+    start: Extent,
+    velocity: Vector3<f64>,
+    pull: Vector3<f64>,
+}
+
+impl Sweep {
+    /// Of a collider that now fills `standing`; none if it does not move.
+    pub fn of(body: &RigidBody, standing: Extent, world: &WorldView<'_>, dt: f64) -> Option<Self> {
+        if !(body.is_dynamic() && !body.is_sleeping() || body.is_kinematic()) {
+            return None;
+        }
+        let centre = scalar::vector(body.center_of_mass());
+        let arm = (standing.low.coords - centre).abs().sup(&(standing.high.coords - centre).abs());
+        let turn = |angle: f64| arm.norm() * angle.min(2.0);
+        let angle = scalar::vector(body.angvel()).norm() * dt;
+        let velocity = scalar::vector(body.linvel());
+        if body.is_kinematic() {
+            let step = scalar::pose(body.position()).inverse() * scalar::pose(body.next_position());
+            let set = step.translation.vector.norm() + turn(step.rotation.angle());
+            let start = standing.grown(set.max(velocity.norm() * dt + turn(angle)));
+            return Some(Self { start, velocity: Vector3::zeros(), pull: Vector3::zeros() });
+        }
+        let mass = scalar::wide(body.mass()).max(f64::MIN_POSITIVE);
+        let pull = scalar::vector(world.gravity) * scalar::wide(body.gravity_scale())
+            + scalar::vector(body.user_force()) / mass;
+        Some(Self { start: standing.grown(turn(angle)), velocity, pull })
     }
-    let mass = scalar::wide(body.mass()).max(f64::MIN_POSITIVE);
-    let pull = scalar::vector(world.gravity) * scalar::wide(body.gravity_scale())
-        + scalar::vector(body.user_force()) / mass;
-    let path = Extent::of_path(&Point3::origin(), &velocity, &pull, dt);
-    let low = standing.low + path.low.coords;
-    let high = standing.high + path.high.coords;
-    Extent { low, high }.grown(turn(angle))
+
+    /// The box within which it stays from one time to another [s].
+    pub fn part(&self, times: [f64; 2]) -> Extent {
+        let path = Extent::of_part(&Point3::origin(), &self.velocity, &self.pull, times);
+        let (low, high) = (path.low.coords, path.high.coords);
+        Extent { low: self.start.low + low, high: self.start.high + high }
+    }
 }
 
 pub(crate) fn extent(aabb: &Aabb) -> Extent {

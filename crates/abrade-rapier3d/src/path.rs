@@ -23,6 +23,17 @@ impl Extent {
         Self { low: from.inf(&straight) - bend, high: from.sup(&straight) + bend }
     }
 
+    /// As [`Extent::of_path`], from one time to another [s].
+    pub fn of_part(
+        from: &Point3<f64>,
+        velocity: &Vector3<f64>,
+        acceleration: &Vector3<f64>,
+        [start, end]: [f64; 2],
+    ) -> Self {
+        let at = from + velocity * start + acceleration * (0.5 * start * start);
+        Self::of_path(&at, &(velocity + acceleration * start), acceleration, end - start)
+    }
+
     /// This box and `by` [m] around it.
     pub fn grown(&self, by: f64) -> Self {
         let margin = Vector3::repeat(by);
@@ -59,10 +70,9 @@ impl Extent {
         cut
     }
 
-    /// This box made to hold `point`.
-    pub fn hold(&mut self, point: &Point3<f64>) {
-        self.low = self.low.inf(point);
-        self.high = self.high.sup(point);
+    /// The box around this one and another.
+    pub fn joined(&self, other: &Self) -> Self {
+        Self { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
     }
 }
 

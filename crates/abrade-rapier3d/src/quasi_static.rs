@@ -10,8 +10,8 @@ use rapier::dynamics::RigidBodyHandle;
 use crate::gate::Lie;
 use crate::micro::place;
 use crate::observer::{Relay, WearObserver};
-use crate::path::Extent;
 use crate::surface::{SurfaceId, WornCollider};
+use crate::track::Trace;
 
 /// Balances of the load per pitch of the way.
 const SAMPLES: f64 = 4.0;
@@ -54,7 +54,7 @@ impl Pressing {
         settings: abrade::EncounterSettings,
     ) -> Result<Self, PhysicsError> {
         let body = Body { state, ..body.clone() };
-        let pressed = Pressed::new(&body, [&worn.surface], settings)?;
+        let pressed = Pressed::new(&body, [&*worn.surface], settings)?;
         Ok(Self { surface, pressed, body, load: 0.0 })
     }
 
@@ -78,10 +78,10 @@ impl Pressing {
         }
         let Some(lie) = lies.iter().find(|lie| lie.id == self.surface) else { return Ok(None) };
         let frame = lie.pose;
-        let mut placed = place(surfaces, &[self.surface], lies, &frame);
-        let seen = Extent { low: end.position, high: end.position };
+        let mut placed = place(surfaces, &[self.surface], &[Isometry3::identity()]);
+        let trace = Trace::new(end.position, Vector3::zeros(), dt);
         let ids = vec![self.surface];
-        let mut relay = Relay { observer, body: handle, frame, surfaces: ids, began: 0.0, seen };
+        let mut relay = Relay { observer, body: handle, frame, surfaces: ids, began: 0.0, trace };
         let hold = Hold {
             load: -Vector3::z() * load,
             duration: dt,
@@ -98,8 +98,8 @@ impl Pressing {
     }
 
     /// Ends the contact: overhangs break off.
-    pub fn end(&mut self, surfaces: &mut [WornCollider], lies: &[Lie]) -> abrade::Ledger {
-        let mut placed = place(surfaces, &[self.surface], lies, &Isometry3::identity());
+    pub fn end(&mut self, surfaces: &mut [WornCollider]) -> abrade::Ledger {
+        let mut placed = place(surfaces, &[self.surface], &[Isometry3::identity()]);
         self.pressed.end(&mut placed);
         *self.pressed.ledger()
     }

@@ -137,6 +137,10 @@ impl WearWorld {
         tracked.shadow = Some(shadow::write(rb, frame, body.state));
         rb.wake_up(true);
         tracked.register(body);
+        self.glances.forget(handle);
+        if !self.registered.contains(&handle) {
+            self.registered.push(handle);
+        }
         Ok(())
     }
 }

@@ -45,6 +45,9 @@ impl WearSettings {
 /// What was done since the world was made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
+    /// Bodies looked at closely, step by step: those that could come near a wear surface, and
+    /// those that were new or changed.
+    pub looked: u64,
     /// Body steps resolved by Micro.
     pub micro: u64,
     /// Body steps resolved by QuasiStatic.

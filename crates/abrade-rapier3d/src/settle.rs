@@ -87,7 +87,7 @@ impl WearWorld {
             Resolve::Lockstep => 0.0,
             _ => first.rest_speed,
         };
-        let members = gather(first.body, world, &self.obstacles).map_err(Lost::from);
+        let members = gather(first.body, world, &self.neighbours).map_err(Lost::from);
         let result = members.and_then(|members| {
             let bodies = members.bodies.clone();
             self.lockstep(members, held, world, rest_speed).map(|done| (bodies, done))
@@ -118,7 +118,7 @@ impl WearWorld {
         let Share { body, impulse, contact_time, touches, worn } = share;
         self.counters.lockstep += 1;
         let tracked = Tracked::slot(&mut self.bodies, body);
-        tracked.let_go(&mut self.surfaces, &self.lies, &mut self.closed);
+        tracked.let_go(&mut self.surfaces, &mut self.closed);
         tracked.hand_to(Resolver::Lockstep, reason, &mut self.events);
         let booking = Booking { impulse, contact_time, touches };
         tracked.book(&booking, &worn, &mut self.events);
@@ -176,7 +176,7 @@ impl WearWorld {
         if load == 0.0 {
             if let Some(at) = at {
                 let mut pressing = tracked.pressing.swap_remove(at);
-                self.closed += pressing.end(&mut self.surfaces, &self.lies);
+                self.closed += pressing.end(&mut self.surfaces);
             }
             tracked.book(&Booking::default(), &[], &mut self.events);
             return Ok(());
@@ -199,7 +199,7 @@ impl WearWorld {
                 tracked.pressing.len() - 1
             }
         };
-        let displaced = worn.displaced();
+        let displaced = worn.surface.worn().displaced();
         let pressing = &mut tracked.pressing[at];
         let (surfaces, lies) = (&mut self.surfaces, &self.lies);
         let done = pressing.advance(held.body, surfaces, lies, &end, load, dt, observer)?;
@@ -207,7 +207,7 @@ impl WearWorld {
         tracked.friction = done.friction;
         self.counters.steps += done.advance.steps;
         self.counters.node_evaluations += done.advance.node_evaluations;
-        let gained = self.surfaces[surface.0].displaced() - displaced;
+        let gained = self.surfaces[surface.0].surface.worn().displaced() - displaced;
         let impulse = frame * done.advance.impulse;
         let booking = Booking { impulse, contact_time: dt, touches: true };
         tracked.book(&booking, &[(surface, gained)], &mut self.events);

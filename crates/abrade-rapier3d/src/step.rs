@@ -2,12 +2,13 @@
 
 use abrade::Until;
 use nalgebra::{Isometry3, Vector3};
-use rapier::dynamics::{RigidBody, RigidBodyHandle};
+use rapier::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
 use rapier::geometry::ColliderSet;
 use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
 
 use crate::error::WearError;
 use crate::gate::{self, Course};
+use crate::glance::Span;
 use crate::guard::WearGuard;
 use crate::observer::WearObserver;
 use crate::settings::StepReport;
@@ -73,9 +74,14 @@ impl WearWorld {
         if !self.surfaces.is_empty() && self.current.dt > 0.0 {
             self.choose(&mut world, &gravity);
             self.collect_obstacles(&world);
-            let single = self.single_registered();
+            let single = self.single_registered(world.bodies);
             self.candidates
                 .sort_by_key(|&handle| (Some(handle) != single, handle.into_raw_parts()));
+            // A first exit makes the step shorter for whoever follows.
+            let may_end = single.is_some() && self.settings.until == Until::FirstExit;
+            if self.candidates.len() > 1 && !may_end && !observer.watches() {
+                self.run_ahead(&world);
+            }
             for at in 0..self.candidates.len() {
                 let until = match Some(self.candidates[at]) == single {
                     true => self.settings.until,
@@ -138,7 +144,10 @@ impl WearWorld {
         if !self.held.is_empty() {
             self.settle_held(&mut world, observer);
         }
-        let Current { dt, exited, failure } = std::mem::take(&mut self.current);
+        let mut proxies = self.surfaces.iter().map(|worn| worn.proxy);
+        let proxy = proxies.find(|&proxy| world.colliders.contains(proxy));
+        self.glances.seal(proxy, world.colliders);
+        let Current { dt, exited, failure, .. } = std::mem::take(&mut self.current);
         match failure {
             Some(error) => Err(error),
             None => Ok(StepReport { dt, exited }),
@@ -152,31 +161,32 @@ impl WearWorld {
         self.steered.clear();
         self.held.clear();
         for handle in self.candidates.drain(..) {
-            Tracked::slot(&mut self.bodies, handle).course = None;
+            let tracked = Tracked::slot(&mut self.bodies, handle);
+            (tracked.course, tracked.ahead) = (None, None);
         }
         self.taken.clear();
         self.obstacles.clear();
+        self.neighbours.clear();
+        self.changed.clear();
     }
 
     /// What the bodies near a surface may run into, each other included.
     fn collect_obstacles(&mut self, world: &WorldView<'_>) {
-        if self.candidates.is_empty() {
-            return;
-        }
+        let Some(reach) = self.current.reach else { return };
         let (surfaces, bodies) = (&self.surfaces, &self.bodies);
         let is_proxy = |collider| surfaces.iter().any(|worn| worn.proxy == collider);
         let course = |body: RigidBodyHandle| {
             let slot = bodies.get(body.into_raw_parts().0 as usize)?.as_ref()?;
-            slot.course.filter(|_| slot.handle == body)
+            slot.course.as_deref().filter(|_| slot.handle == body)
         };
-        self.obstacles.collect(world, self.current.dt, is_proxy, course);
+        self.obstacles.collect(world, self.current.dt, &reach, is_proxy, course);
     }
 
     /// The one body whose first exit may end a step.
-    fn single_registered(&self) -> Option<RigidBodyHandle> {
-        let mut registered = self.bodies.iter().flatten().filter(|tracked| tracked.registered);
+    fn single_registered(&self, bodies: &RigidBodySet) -> Option<RigidBodyHandle> {
+        let mut registered = self.registered.iter().filter(|&&handle| bodies.contains(handle));
         match (registered.next(), registered.next()) {
-            (Some(tracked), None) => Some(tracked.handle),
+            (Some(&handle), None) => Some(handle),
             _ => None,
         }
     }
@@ -184,22 +194,26 @@ impl WearWorld {
     /// Finds the bodies near a surface; ends encounters of those that are not.
     fn choose(&mut self, world: &mut WorldView<'_>, gravity: &Vector3<f64>) {
         gate::lie(&self.surfaces, world.colliders, &mut self.lies);
-        let mut stale = std::mem::take(&mut self.stale);
-        stale.clear();
-        for (handle, rb) in world.bodies.iter().filter(|(_, rb)| gate::takes_part(rb)) {
-            match Tracked::slot(&mut self.bodies, handle).is_stale(rb, world.colliders) {
-                true => stale.push(handle),
-                false => self.look_at(handle, rb, world.colliders, gravity),
+        let mut picked = std::mem::take(&mut self.picked);
+        let span = Span { dt: self.current.dt, gravity: gravity.norm() };
+        self.glances.pick(world.bodies, world.colliders, &self.lies, span, &mut picked);
+        for &handle in &picked {
+            let Some(rb) = world.bodies.get(handle).filter(|rb| gate::takes_part(rb)) else {
+                continue;
+            };
+            self.counters.looked += 1;
+            if Tracked::slot(&mut self.bodies, handle).is_stale(rb, world.colliders)
+                && let Some(rb) = world.bodies.get_mut(handle)
+            {
+                // Colliders and extra masses that are new count from Rapier's next step on.
+                rb.recompute_mass_properties_from_colliders(world.colliders);
+                Tracked::slot(&mut self.bodies, handle).refresh(rb, world.colliders);
             }
-        }
-        for &handle in &stale {
-            let Some(rb) = world.bodies.get_mut(handle) else { continue };
-            // Colliders and extra masses that are new count from Rapier's next step on.
-            rb.recompute_mass_properties_from_colliders(world.colliders);
-            Tracked::slot(&mut self.bodies, handle).refresh(rb, world.colliders);
+            let Some(rb) = world.bodies.get(handle) else { continue };
             self.look_at(handle, rb, world.colliders, gravity);
+            self.glances.keep(handle, rb, Tracked::slot(&mut self.bodies, handle));
         }
-        self.stale = stale;
+        self.picked = picked;
     }
 
     /// Makes a body a candidate if it comes near a surface, else ends its encounter.
@@ -221,8 +235,11 @@ impl WearWorld {
         }
         let Some(&first) = tracked.near.first() else { return };
         let Some(lie) = self.lies.iter().find(|lie| lie.id == first) else { return };
-        let region = course.region_before(&lie.pose, &surfaces[first.0].bounds, dt);
-        tracked.course = Some(region.placed_by(&lie.pose));
+        let track = course.track_before(&lie.pose, &surfaces[first.0].bounds, dt);
+        tracked.course = Some(Box::new(track.placed_by(&lie.pose)));
+        let reach = course.reach(&Isometry3::identity(), dt);
+        let reach = self.current.reach.map_or(reach, |others| others.joined(&reach));
+        self.current.reach = Some(reach);
         self.candidates.push(handle);
     }
 }

@@ -1,6 +1,7 @@
 //! A wear surface on its proxy collider, and where it lies.
 
 use std::fmt;
+use std::sync::Arc;
 
 use abrade::{ElasticLaw, Surface};
 use nalgebra::{Isometry3, Point3};
@@ -23,7 +24,8 @@ impl fmt::Display for SurfaceId {
 
 /// A surface and the collider that stands for it.
 pub(crate) struct WornCollider {
-    pub surface: Surface,
+    /// Shared with its leaves, for as long as those last.
+    pub surface: Arc<Surface>,
     pub proxy: ColliderHandle,
     /// The surface's frame in the proxy's.
     offset: Isometry3<f64>,
@@ -43,6 +45,7 @@ impl WornCollider {
             ElasticLaw::Foundation { .. } | ElasticLaw::Rigid => 0.0,
         };
         let bounds = Extent { low, high };
+        let surface = Arc::new(surface);
         Self { surface, proxy, offset, exact: None, bounds, inflation }
     }
 
@@ -66,8 +69,8 @@ impl WornCollider {
         body.is_dynamic() || body.is_moving() || body.next_position() != body.position()
     }
 
-    /// Volume displaced so far [m3].
-    pub fn displaced(&self) -> f64 {
-        self.surface.worn().displaced()
+    /// The surface, to be worn.
+    pub fn owned(&mut self) -> &mut Surface {
+        Arc::get_mut(&mut self.surface).expect("a leaf lasts no longer than its run")
     }
 }

@@ -7,15 +7,16 @@ use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::ColliderSet;
 use rapier::math::Vector;
 
+use crate::ahead::Ahead;
 use crate::booking::{Booking, Contact};
 use crate::derive::{self, Print};
 use crate::event::{Refusal, WearEvent};
 use crate::gate::Lie;
-use crate::path::Extent;
 use crate::quasi_static::Pressing;
 use crate::resolver::Resolver;
 use crate::shadow::{self, Shadow};
 use crate::surface::{SurfaceId, WornCollider};
+use crate::track::Track;
 
 /// Periods on its springs for which a contact may be a blow.
 const BLOW: f64 = 20.0;
@@ -44,8 +45,10 @@ pub(crate) struct Tracked {
     resolver: Option<Resolver>,
     /// Surfaces that it comes near in the step under way.
     pub near: Vec<SurfaceId>,
-    /// Box around its course to the first of them, in the world.
-    pub course: Option<Extent>,
+    /// Its course to the first of them, in the world.
+    pub course: Option<Box<Track>>,
+    /// What it does in the step under way if it is alone.
+    pub ahead: Option<Box<Ahead>>,
     prints: Vec<Print>,
     com: Option<Vector>,
 }
@@ -84,6 +87,7 @@ impl Tracked {
             resolver: None,
             near: Vec::new(),
             course: None,
+            ahead: None,
             prints: Vec::new(),
             com: None,
         }
@@ -174,9 +178,9 @@ impl Tracked {
     }
 
     /// Ends what QuasiStatic presses it against.
-    pub fn let_go(&mut self, surfaces: &mut [WornCollider], lies: &[Lie], closed: &mut Ledger) {
+    pub fn let_go(&mut self, surfaces: &mut [WornCollider], closed: &mut Ledger) {
         for mut pressing in self.pressing.drain(..) {
-            *closed += pressing.end(surfaces, lies);
+            *closed += pressing.end(surfaces);
         }
     }
 
@@ -192,18 +196,17 @@ impl Tracked {
     /// True while springs that Lockstep left loaded have not come to rest.
     pub fn is_in_lockstep_blow(&self) -> bool {
         let wearer = self.wearer.as_ref().map(|(_, wearer)| wearer);
-        wearer.is_some_and(|wearer| wearer.contact().in_contact() && !wearer.rests())
+        wearer.is_some_and(|wearer| wearer.contact().in_contact() && !wearer.is_slow())
     }
 
     /// Micro has carried it: what the others kept is let go.
     pub fn taken_by_micro(
         &mut self,
         surfaces: &mut [WornCollider],
-        lies: &[Lie],
         closed: &mut Ledger,
         events: &mut Vec<WearEvent>,
     ) {
-        self.let_go(surfaces, lies, closed);
+        self.let_go(surfaces, closed);
         self.wearer = None;
         self.borne.clear();
         self.friction = 0.0;

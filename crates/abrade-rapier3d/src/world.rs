@@ -8,13 +8,17 @@ use nalgebra::Isometry3;
 use rapier::dynamics::{RigidBodyHandle, RigidBodySet};
 use rapier::geometry::ColliderSet;
 
+use crate::changed::Changed;
 use crate::drive::DrivenBody;
 use crate::error::WearError;
 use crate::event::WearEvent;
 use crate::gate::Lie;
+use crate::glance::Glances;
 use crate::guard::Taken;
 use crate::held::{Before, Held};
+use crate::neighbours::Neighbours;
 use crate::obstacle::Obstacles;
+use crate::path::Extent;
 use crate::settings::{Counters, WearSettings};
 use crate::shadow;
 use crate::steer::Steered;
@@ -30,11 +34,16 @@ pub struct WearWorld {
     pub(crate) bodies: Vec<Option<Tracked>>,
     pub(crate) taken: Taken,
     pub(crate) obstacles: Obstacles,
+    pub(crate) neighbours: Neighbours,
+    pub(crate) changed: Changed,
     pub(crate) lies: Vec<Lie>,
     /// Bodies near a wear surface in this step.
     pub(crate) candidates: Vec<RigidBodyHandle>,
-    /// Bodies whose colliders have changed.
-    pub(crate) stale: Vec<RigidBodyHandle>,
+    /// The first look at every body, and whom it picked in this step.
+    pub(crate) glances: Glances,
+    pub(crate) picked: Vec<RigidBodyHandle>,
+    /// Bodies that the embedder has registered, removed ones included.
+    pub(crate) registered: Vec<RigidBodyHandle>,
     /// Bodies carried through this step.
     pub(crate) integrated: Vec<Integrated>,
     pub(crate) steered: Vec<Steered>,
@@ -64,6 +73,8 @@ pub(crate) struct Current {
     pub dt: f64,
     pub exited: Option<RigidBodyHandle>,
     pub failure: Option<WearError>,
+    /// Box around wherever bodies near a surface may get.
+    pub reach: Option<Extent>,
 }
 
 impl WearWorld {
@@ -128,7 +139,7 @@ impl WearWorld {
 
     /// The surfaces, in the order of insertion.
     pub fn surfaces(&self) -> impl Iterator<Item = (SurfaceId, &Surface)> {
-        self.surfaces.iter().enumerate().map(|(id, worn)| (SurfaceId(id), &worn.surface))
+        self.surfaces.iter().enumerate().map(|(id, worn)| (SurfaceId(id), &*worn.surface))
     }
 
     /// What happened in the last step.

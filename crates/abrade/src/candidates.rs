@@ -29,6 +29,8 @@ pub(crate) struct Candidates {
     pub slots: Vec<Slot>,
     /// Pose at which the cache was made, and how far the body may move from it.
     made: Option<(State, f64)>,
+    /// Box around the undeformed nodes whose depths were read.
+    pub read: Option<[Point3<f64>; 2]>,
 }
 
 impl Candidates {
@@ -55,10 +57,11 @@ impl Candidates {
     ) {
         self.slots.clear();
         let reach = margin + inflation;
-        let [low, high] = reach_box(&surface.grid, shape, state, reach);
-        let nodes = &surface.nodes;
-        surface.grid.visit(&low, &high, |i| {
-            let x = nodes.position(i);
+        let [low, high] = reach_box(surface.grid(), shape, state, reach);
+        let nodes = surface.nodes();
+        self.read(&low, &high);
+        surface.grid().visit(&low, &high, |i| {
+            let x = nodes.rest_position[i] - nodes.normal[i] * surface.depth(i);
             if clearance(shape, state, &x) < reach {
                 let slot = Slot { id: i as u32, x, n: nodes.normal[i], area: nodes.rest_area[i] };
                 self.slots.push(slot);
@@ -81,20 +84,27 @@ impl Candidates {
         self.slots.clear();
         let [low, high] = match surface.level() {
             Some(n) => {
-                let top = surface.grid.bounds()[1].coords.dot(&n) + margin;
+                let top = surface.grid().bounds()[1].coords.dot(&n) + margin;
                 bounds_below(shape, state, &n, top, margin)
             }
             None => bounds(shape, state, margin),
         };
-        let nodes = &surface.nodes;
-        surface.grid.visit(&low, &high, |i| {
-            let x = nodes.position(i);
+        let nodes = surface.nodes();
+        self.read(&low, &high);
+        surface.grid().visit(&low, &high, |i| {
+            let x = nodes.rest_position[i] - nodes.normal[i] * surface.depth(i);
             let n = nodes.normal[i];
             if swept.meets(&x, &n, margin) {
                 self.slots.push(Slot { id: i as u32, x, n, area: nodes.rest_area[i] });
             }
         });
         self.made = Some((*state, margin));
+    }
+
+    /// Notes that the depths of the nodes in a box were read.
+    fn read(&mut self, low: &Point3<f64>, high: &Point3<f64>) {
+        let [from, to] = self.read.unwrap_or([*low, *high]);
+        self.read = Some([from.inf(low), to.sup(high)]);
     }
 
     /// Forces a new collection at the next step.

@@ -34,7 +34,7 @@ pub(crate) struct Columns {
     damping_ratio: f64,
     #[cfg_attr(feature = "state", serde(skip))]
     swept: Swept,
-    candidates: Candidates,
+    pub(crate) candidates: Candidates,
     /// One per candidate: the column, and how far the body may move from where the candidates
     /// were collected before it can touch it [m].
     columns: Vec<Column>,
@@ -204,14 +204,14 @@ impl Columns {
                 let broken = column.dig(piece, share);
                 let debris = total * surface.laws.removal.share(cut.attack) + broken;
                 surface.sink(slot.id, total + broken);
-                let worn = &mut surface.worn;
+                let worn = &mut surface.gain;
                 worn.lateral += slot.area * total * cut.lateral;
                 worn.normal += slot.area * total * (1.0 - cut.lateral);
                 worn.chip += slot.area * broken;
                 worn.removed += slot.area * debris;
             }
         }
-        let (worn, toll) = (&mut surface.worn, &self.toll);
+        let (worn, toll) = (&mut surface.gain, &self.toll);
         let force = (toll.flow.impulse + toll.spring.impulse + self.damping) / dt;
         worn.peak_normal_force = worn.peak_normal_force.max(force.norm());
         worn.peak_touching = worn.peak_touching.max(toll.touching);
@@ -229,8 +229,8 @@ impl Columns {
             let standing = column.standing();
             if standing > 0.0 {
                 surface.sink(slot.id, standing);
-                surface.worn.chip += slot.area * standing;
-                surface.worn.removed += slot.area * standing;
+                surface.gain.chip += slot.area * standing;
+                surface.gain.removed += slot.area * standing;
             }
             *column = Column::default();
         }

@@ -1,5 +1,7 @@
 //! One body against one surface: by springs (the return mapping) or by columns (the swept rule).
 
+use nalgebra::Point3;
+
 use crate::body::State;
 use crate::columns::Columns;
 use crate::damping::{Damping, Dashpots};
@@ -121,6 +123,14 @@ impl Contact {
         match self {
             Self::Springs(patch) => patch.deepest(state),
             Self::Columns(columns) => columns.deepest(surface, shape, state),
+        }
+    }
+
+    /// Box around the undeformed nodes whose depths were read since the last call.
+    pub(crate) fn take_read(&mut self) -> Option<[Point3<f64>; 2]> {
+        match self {
+            Self::Springs(patch) => patch.candidates.read.take(),
+            Self::Columns(columns) => columns.candidates.read.take(),
         }
     }
 

@@ -1,9 +1,10 @@
 //! One body's running contact with wear surfaces: the state that outlives a step of the
 //! embedder, and the call that carries it through such a step.
 
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Point3, Vector3};
 
 use crate::body::{Body, State};
+use crate::contact::Contact;
 use crate::error::PhysicsError;
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
@@ -154,6 +155,13 @@ impl Encounter {
     /// Period of the body on the springs that it touches [s]; zero before any contact.
     pub fn period(&self) -> f64 {
         std::f64::consts::TAU * self.integrator.next_dt / self.integrator.eta
+    }
+
+    /// Per surface, the box around the undeformed nodes whose depths were read since the last
+    /// call, in the surface's frame [m]. What happens to other nodes cannot have changed a bit of
+    /// what the encounter did.
+    pub fn take_reads(&mut self) -> impl Iterator<Item = Option<[Point3<f64>; 2]>> + '_ {
+        self.integrator.contacts.iter_mut().map(Contact::take_read)
     }
 
     /// The energies since the encounter began; zeros unless asked for.

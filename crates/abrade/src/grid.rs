@@ -4,7 +4,7 @@
 use nalgebra::Point3;
 
 /// Cells of nodes, in compressed rows: `items[start[c]..start[c + 1]]` are the nodes of cell `c`.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Grid {
     low: Point3<f64>,
     high: Point3<f64>,

@@ -83,7 +83,7 @@ impl Integrator {
         let (mut contacts, mut node_counts) = (Vec::new(), Vec::new());
         for surface in surfaces {
             contacts.push(Contact::new(&body.shape, surface, settings.ledger)?);
-            node_counts.push(surface.nodes.len());
+            node_counts.push(surface.nodes().len());
         }
         Ok(Self {
             settings,
@@ -127,7 +127,7 @@ impl Integrator {
 
     /// An error unless these are surfaces of the sizes that it was made with.
     pub(crate) fn fits(&self, surfaces: &[Placed<'_>]) -> Result<(), PhysicsError> {
-        let counts = surfaces.iter().map(|placed| placed.surface.nodes.len());
+        let counts = surfaces.iter().map(|placed| placed.surface.nodes().len());
         if counts.eq(self.node_counts.iter().copied()) {
             return Ok(());
         }

@@ -26,6 +26,7 @@ mod hull;
 mod inner_loop;
 mod integrate;
 mod laws;
+mod leaf;
 mod ledger;
 mod material;
 mod node_law;
@@ -57,6 +58,7 @@ pub use encounter::{
 pub use error::{ParameterError, PhysicsError, ShapeError, SurfaceError};
 pub use hull::{Hull, Plane, Polyhedron, cuboid_vertices};
 pub use laws::{ElasticLaw, FlowLaw, HertzConvention, Lateral, Removal};
+pub use leaf::Changes;
 pub use ledger::Ledger;
 pub use material::Material;
 pub use nodes::Nodes;

@@ -32,7 +32,7 @@ pub(crate) struct Patch {
     keeps_ledger: bool,
     /// zeta of the dashpots; zero without them.
     damping_ratio: f64,
-    candidates: Candidates,
+    pub(crate) candidates: Candidates,
     /// Springs at the start of the step and at its trial end, one per candidate.
     old: Vec<Spring>,
     #[cfg_attr(feature = "state", serde(skip))]
@@ -290,13 +290,13 @@ impl Patch {
             if spring.overlap > 0.0 && total > 0.0 {
                 slot.x -= slot.n * total;
                 surface.sink(slot.id, total);
-                surface.worn.normal += slot.area * drop.normal;
-                surface.worn.lateral += slot.area * drop.lateral;
-                surface.worn.removed += slot.area * total * surface.laws.removal.share(attack);
+                surface.gain.normal += slot.area * drop.normal;
+                surface.gain.lateral += slot.area * drop.lateral;
+                surface.gain.removed += slot.area * total * surface.laws.removal.share(attack);
             }
         }
         std::mem::swap(&mut self.old, &mut self.new);
-        let (worn, reaction) = (&mut surface.worn, &self.reaction);
+        let (worn, reaction) = (&mut surface.gain, &self.reaction);
         worn.peak_normal_force = worn.peak_normal_force.max(reaction.normal_load);
         worn.peak_touching = worn.peak_touching.max(reaction.touching);
         worn.indented_area = worn.indented_area.max(reaction.normal_flow_area);
@@ -338,7 +338,7 @@ fn inflation(elastic: &ElasticLaw) -> f64 {
 
 fn yield_overlap(contactors: &[Contactor], surface: &Surface) -> f64 {
     let SurfaceLaws { material, elastic, .. } = &surface.laws;
-    let area = surface.nodes.rest_area[0];
+    let area = surface.nodes().rest_area[0];
     let of = |c: &Contactor| match elastic {
         ElasticLaw::HertzNodes { .. } => {
             HertzNodes::new(material.poisson).yield_overlap(c.coefficient, material.hardness, area)

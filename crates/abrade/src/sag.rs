@@ -55,6 +55,6 @@ impl Surface {
         let (mut low, mut high) = (point - Vector3::repeat(reach), point + Vector3::repeat(reach));
         (low.z, high.z) = (low.z.min(bottom.z), high.z.max(top.z));
         let nodes = self.nodes();
-        self.grid.visit(&low, &high, |i| show(nodes.rest_position[i], nodes.depth[i]));
+        self.grid().visit(&low, &high, |i| show(nodes.rest_position[i], nodes.depth[i]));
     }
 }

@@ -1,10 +1,14 @@
 //! A wear surface: nodes, laws, and what has been worn off.
 
+use std::ops::AddAssign;
+use std::sync::Arc;
+
 use nalgebra::{Point3, Vector3};
 
 use crate::error::{ParameterError, SurfaceError};
 use crate::grid::Grid;
 use crate::laws::{ElasticLaw, FlowLaw, Lateral, Removal};
+use crate::leaf::{Changes, Leaf};
 use crate::material::Material;
 use crate::nodes::Nodes;
 #[cfg(feature = "state")]
@@ -71,10 +75,14 @@ pub struct Worn {
 #[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "state", serde(try_from = "SurfaceState", into = "SurfaceState"))]
 pub struct Surface {
-    pub(crate) nodes: Nodes,
+    /// Empty for a leaf, as the grid.
+    nodes: Nodes,
+    grid: Grid,
+    leaf: Option<Box<Leaf>>,
     pub(crate) laws: SurfaceLaws,
-    pub(crate) worn: Worn,
-    pub(crate) grid: Grid,
+    /// What was worn until the last [`Surface::settle`], and since.
+    worn: Worn,
+    pub(crate) gain: Worn,
     /// The normal of every node, where they agree.
     level: Option<Vector3<f64>>,
     columns_rows: [usize; 2],
@@ -85,6 +93,19 @@ impl Worn {
     /// W_V [m3] as the sum of its parts.
     pub fn displaced(&self) -> f64 {
         self.normal + self.lateral + self.chip
+    }
+}
+
+impl AddAssign for Worn {
+    fn add_assign(&mut self, other: Self) {
+        self.normal += other.normal;
+        self.lateral += other.lateral;
+        self.chip += other.chip;
+        self.removed += other.removed;
+        self.max_depth = self.max_depth.max(other.max_depth);
+        self.peak_normal_force = self.peak_normal_force.max(other.peak_normal_force);
+        self.peak_touching = self.peak_touching.max(other.peak_touching);
+        self.indented_area = self.indented_area.max(other.indented_area);
     }
 }
 
@@ -198,17 +219,75 @@ impl Surface {
                 rest_area: vec![area; count],
                 depth: vec![0.0; count],
             },
+            leaf: None,
             laws,
             worn: Worn::default(),
+            gain: Worn::default(),
             level: Some(Vector3::z()),
             columns_rows,
             pitch,
         }
     }
 
-    /// The nodes.
+    /// A leaf of `below`: wears as it would, and leaves it as it is. See [`Surface::into_changes`].
+    pub fn leaf(below: &Arc<Self>) -> Self {
+        Self {
+            nodes: Nodes::default(),
+            grid: Grid::default(),
+            leaf: Some(Box::new(Leaf::new(below))),
+            laws: below.laws.clone(),
+            worn: below.worn(),
+            gain: Worn::default(),
+            level: below.level,
+            columns_rows: below.columns_rows,
+            pitch: below.pitch,
+        }
+    }
+
+    /// What a leaf has worn; nothing for a surface that is none. Lets go of the surface below.
+    pub fn into_changes(self) -> Changes {
+        let gain = self.gain;
+        self.leaf.map_or_else(Changes::default, |leaf| leaf.into_changes(gain))
+    }
+
+    /// Takes over what a leaf of this surface has worn.
+    pub fn apply(&mut self, changes: &Changes) {
+        self.settle();
+        changes.write(&mut self.nodes.depth);
+        self.worn += *changes.gain();
+    }
+
+    /// Books what was worn since the last call, as one sum: so a total does not depend on
+    /// whether a leaf has worn it. Returns it.
+    pub fn settle(&mut self) -> Worn {
+        let gain = std::mem::take(&mut self.gain);
+        self.worn += gain;
+        gain
+    }
+
+    /// The nodes; of a leaf, those of the surface below.
     pub fn nodes(&self) -> &Nodes {
-        &self.nodes
+        match &self.leaf {
+            None => &self.nodes,
+            Some(leaf) => leaf.below().nodes(),
+        }
+    }
+
+    /// Finds nodes by their undeformed positions.
+    pub(crate) fn grid(&self) -> &Grid {
+        match &self.leaf {
+            None => &self.grid,
+            Some(leaf) => leaf.below().grid(),
+        }
+    }
+
+    /// Depth of node `i` [m].
+    #[inline]
+    pub fn depth(&self, i: usize) -> f64 {
+        match &self.leaf {
+            None => self.nodes.depth[i],
+            Some(leaf) => leaf.depth(i as u32),
+        }
     }
 
     /// The laws.
@@ -217,8 +296,10 @@ impl Surface {
     }
 
     /// Volumes worn off so far.
-    pub fn worn(&self) -> &Worn {
-        &self.worn
+    pub fn worn(&self) -> Worn {
+        let mut worn = self.worn;
+        worn += self.gain;
+        worn
     }
 
     /// Distance of neighbouring nodes [m].
@@ -233,19 +314,26 @@ impl Surface {
 
     /// Sinks node `id` by `drop` [m].
     pub(crate) fn sink(&mut self, id: u32, drop: f64) {
-        let depth = &mut self.nodes.depth[id as usize];
-        *depth += drop;
-        self.worn.max_depth = self.worn.max_depth.max(*depth);
+        let depth = match &mut self.leaf {
+            None => {
+                let depth = &mut self.nodes.depth[id as usize];
+                *depth += drop;
+                *depth
+            }
+            Some(leaf) => leaf.sink(id, drop),
+        };
+        self.gain.max_depth = self.gain.max_depth.max(depth);
     }
 
     /// W_V [m3] = sum of rest_area * depth (Eq. 6), chips included.
     pub fn wear_volume(&self) -> f64 {
-        self.nodes.wear_volume()
+        let added = self.leaf.as_ref().map_or(0.0, |leaf| leaf.added_volume());
+        self.nodes().wear_volume() + added
     }
 
     /// Corners of the box around the undeformed nodes, in the surface's frame [m].
     pub fn bounds(&self) -> [Point3<f64>; 2] {
-        self.grid.bounds()
+        self.grid().bounds()
     }
 
     /// Triangles between neighbouring nodes, for display.

@@ -5,7 +5,7 @@ use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::ColliderHandle;
 
 use crate::event::Refusal;
-use crate::obstacle::Obstacles;
+use crate::neighbours::Neighbours;
 use crate::view::WorldView;
 
 /// Most bodies of an island: a step of it costs about 2 us and 1 us a body.
@@ -22,7 +22,7 @@ pub(crate) struct Members {
 pub(crate) fn gather(
     start: RigidBodyHandle,
     world: &WorldView<'_>,
-    obstacles: &Obstacles,
+    near: &Neighbours,
 ) -> Result<Members, Refusal> {
     let mut members = Members { bodies: vec![start], standing: Vec::new() };
     let mut at = 0;
@@ -35,7 +35,7 @@ pub(crate) fn gather(
         for (first, second, _, _) in world.impulse_joints.attached_enabled_joints(body) {
             members.add_body(if first == body { second } else { first }, world);
         }
-        obstacles.show_near(body, world.colliders, |collider, other| {
+        near.show_near(body, world, |collider, other| {
             members.add_met(collider, other, world);
         });
         if members.bodies.len() > LIMIT {

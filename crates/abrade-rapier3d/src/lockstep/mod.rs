@@ -76,7 +76,10 @@ impl WearWorld {
         let copy = copy(&members, world, &self.before, &self.bodies)?;
         let settings = self.settings.encounter();
         let identity = Isometry3::identity();
-        let mut placed = place(&mut self.surfaces, &ids, &self.lies, &identity);
+        let lies = &self.lies;
+        let pose = |id: &SurfaceId| lies.iter().find(|lie| lie.id == *id).map(|lie| lie.pose);
+        let poses: Vec<_> = ids.iter().filter_map(pose).collect();
+        let mut placed = place(&mut self.surfaces, &ids, &poses);
         let mut wearers = Vec::new();
         for held in &held {
             let tracked = Tracked::slot(&mut self.bodies, held.body);

@@ -139,8 +139,8 @@ pub fn motor_driven_scratch(case: Case) -> Outcome {
     let holder = MassProperties::new(Vector::ZERO, n(0.1), vector(1e-5, 1e-5, 1e-5));
     let tip = rig.body(at).additional_mass_properties(holder);
     let tip = rig.ball(tip, radius, 0.0);
-    // Without it a motor of Rapier's pushes anew in every substep, and friction has the last word.
-    rig.world.integration_parameters.warmstart_joints = true;
+    // With fewer, Rapier's solver does not bring the motor to push against 70 N of friction.
+    rig.world.integration_parameters.num_solver_iterations = 16;
     let held = JointAxesMask::ANG_AXES | JointAxesMask::LIN_Y;
     let joint = GenericJointBuilder::new(held).motor_velocity(JointAxis::LinX, n(0.2), n(1e6));
     rig.world.insert_impulse_joint(base, tip, joint);

@@ -6,72 +6,99 @@ use nalgebra::Vector3;
 use super::rig::Case;
 use super::rows::{self, Outcome};
 
-type Row = (&'static str, fn(Case) -> Outcome);
-
-const ROWS: [Row; 9] = [
-    ("resting ball", rows::resting_ball),
-    ("loaded ball", rows::loaded_ball),
-    ("light block on ball", rows::light_block_on_ball),
-    ("heavy block on ball", rows::heavy_block_on_ball),
-    ("fixed-joint dumbbell", rows::fixed_joint_dumbbell),
-    ("pendulum", rows::pendulum),
-    ("motor-driven scratch", rows::motor_driven_scratch),
-    ("struck stack", rows::struck_stack),
-    ("rolling clump", rows::rolling_clump),
-];
-
-#[test]
-fn table() {
-    let only = std::env::var("ROW").unwrap_or_default();
-    for (name, row) in ROWS.iter().filter(|(name, _)| name.contains(&only)) {
-        let case = |resolve, dt, accuracy| Case { dt, origin: Vector3::zeros(), resolve, accuracy };
-        let began = std::time::Instant::now();
-        if ["resting ball", "loaded ball"].contains(name) && only.is_empty() {
-            continue;
-        }
-        let reference = row(case(Resolve::Lockstep, 1e-4, 1e-4));
-        println!("{name}: {reference:?} {:.2} s", began.elapsed().as_secs_f64());
-        for (resolve, dt) in [
-            (Resolve::Lockstep, 1.0 / 60.0),
-            (Resolve::Auto, 1e-3),
-            (Resolve::Auto, 1.0 / 240.0),
-            (Resolve::Auto, 1.0 / 60.0),
-        ] {
-            let began = std::time::Instant::now();
-            let seen = row(case(resolve, dt, 1e-3));
-            println!(
-                "  {resolve:?} {dt:.4}: W {:+.2} % speed {:+.2} % sleeps {} m {} q {} l {} r {} steps {} {:.3} s",
-                100.0 * (seen.volume / reference.volume - 1.0),
-                100.0 * (seen.speed / reference.speed - 1.0),
-                seen.sleeps,
-                seen.counters.micro,
-                seen.counters.quasi_static,
-                seen.counters.lockstep,
-                seen.counters.refused,
-                seen.counters.steps,
-                began.elapsed().as_secs_f64()
-            );
-        }
-    }
+/// A row, what the reference makes of it, and the steps at which it is known to miss.
+struct Row {
+    name: &'static str,
+    run: fn(Case) -> Outcome,
 }
 
-#[test]
-#[ignore]
-fn trace() {
-    let dt = std::env::var("DT").map_or(1e-3, |dt| dt.parse().expect("a number"));
-    let resolve = match std::env::var("RES").as_deref() {
-        Ok("L") => Resolve::Lockstep,
-        Ok("Q") => Resolve::QuasiStatic,
-        _ => Resolve::Auto,
+const ROWS: [Row; 8] = [
+    Row { name: "loaded ball on soft ground", run: rows::loaded_ball },
+    Row { name: "light block on a resting ball", run: rows::light_block_on_ball },
+    Row { name: "heavy block on a resting ball", run: rows::heavy_block_on_ball },
+    Row { name: "fixed-joint dumbbell", run: rows::fixed_joint_dumbbell },
+    Row { name: "pendulum", run: rows::pendulum },
+    Row { name: "motor-driven scratch", run: rows::motor_driven_scratch },
+    Row { name: "struck stack", run: rows::struck_stack },
+    Row { name: "rolling clump", run: rows::rolling_clump },
+];
+
+/// Steps [s] with the errors allowed in W and in the speed [-].
+const STEPS: [(f64, f64, f64); 3] =
+    [(1e-3, 0.1, 0.05), (1.0 / 240.0, 0.1, 0.05), (1.0 / 60.0, 0.25, 0.25)];
+const LOCKSTEP: f64 = 0.01;
+
+fn origins() -> [Vector3<f64>; 2] {
+    [Vector3::zeros(), Vector3::new(10.0, -10.0, 10.0)]
+}
+
+/// Fails for a resolver that loses or makes up momentum, that wears by Rapier's penetration, or
+/// whose wear depends on the embedder's step, its precision or the place.
+fn check(row: &Row) {
+    let origin = Vector3::zeros();
+    let case = |resolve, dt, accuracy, origin| Case { dt, origin, resolve, accuracy };
+    let reference = (row.run)(case(Resolve::Lockstep, 1e-4, 1e-4, origin));
+    println!("{}: W {:.4e} mm3, {:.4} m/s", row.name, reference.volume, reference.speed);
+    let mut missed = Vec::new();
+    let mut compare = |what: String, seen: Outcome, limits: [f64; 2]| {
+        let errors = [
+            seen.volume / reference.volume - 1.0,
+            (seen.speed - reference.speed) / reference.speed.max(1e-3),
+        ];
+        let counters = seen.counters;
+        let text = format!(
+            "  {what}: W {:+.2} %, speed {:+.2} % (micro {}, quasi-static {}, lockstep {}, {} steps)",
+            100.0 * errors[0],
+            100.0 * errors[1],
+            counters.micro,
+            counters.quasi_static,
+            counters.lockstep,
+            counters.steps,
+        );
+        println!("{text}");
+        if errors.iter().zip(limits).any(|(error, limit)| !(error.abs() <= limit)) {
+            missed.push(text);
+        }
     };
-    let case = Case { dt, origin: Vector3::zeros(), resolve, accuracy: 1e-3 };
-    let only = std::env::var("ROW").unwrap_or_default();
-    for (_, row) in ROWS.iter().filter(|(name, _)| name.contains(&only)) {
-        for dt in [1.0 / 60.0, 1.0 / 240.0, 1e-3, 2e-4, 1e-4] {
-            for accuracy in [1e-3, 1e-4, 1e-5] {
-                let seen = row(Case { dt, accuracy, ..case });
-                println!("{dt:.1e} {accuracy:.0e} W {:.5e} v {:.5}", seen.volume, seen.speed);
-            }
+    let fine = (row.run)(case(Resolve::Lockstep, 1.0 / 240.0, 1e-3, origin));
+    compare("lockstep at 1/240 s".into(), fine, [LOCKSTEP; 2]);
+    for origin in origins() {
+        for (dt, volume, speed) in STEPS {
+            let seen = (row.run)(case(Resolve::Auto, dt, 1e-3, origin));
+            compare(format!("auto at {dt:.4} s, {} m away", origin.x), seen, [volume, speed]);
+        }
+    }
+    assert!(missed.is_empty(), "{}\n{}", row.name, missed.join("\n"));
+}
+
+macro_rules! rows {
+    ($($test:ident: $row:literal),* $(,)?) => {
+        $(#[test]
+        fn $test() {
+            check(&ROWS[$row]);
+        })*
+    };
+}
+
+rows! {
+    a_loaded_ball_on_soft_ground: 0,
+    a_light_block_on_a_resting_ball: 1,
+    a_heavy_block_on_a_resting_ball: 2,
+    a_fixed_joint_dumbbell: 3,
+    a_pendulum: 4,
+    a_motor_driven_scratch: 5,
+    a_struck_stack: 6,
+    a_rolling_clump: 7,
+}
+
+/// Fails for a resting ball that wears, creeps or stays awake.
+#[test]
+fn a_resting_ball_wears_nothing_and_sleeps() {
+    for origin in origins() {
+        for (dt, _, _) in STEPS {
+            let case = Case { dt, origin, resolve: Resolve::Auto, accuracy: 1e-3 };
+            let seen = rows::resting_ball(case);
+            assert!(seen.volume == 0.0 && seen.sleeps, "{seen:?} at {dt} s");
         }
     }
 }

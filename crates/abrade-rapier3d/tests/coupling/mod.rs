@@ -1,7 +1,9 @@
 //! The plug-in against Rapier: gate, hooks, and independence of the embedder's step and origin.
 //! Both precisions run the same tests.
 
+mod crowd;
 mod gate;
+mod hail;
 mod hooks;
 mod independence;
 mod rig;

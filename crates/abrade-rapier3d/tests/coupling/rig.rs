@@ -28,6 +28,10 @@ pub struct Rig {
 }
 
 pub fn surface() -> Surface {
+    plate(HexStrip { length: 30e-3, width: 12e-3, pitch: 0.1e-3, rest_area: None })
+}
+
+fn plate(strip: HexStrip) -> Surface {
     let material = Material {
         hardness: 6.6e9,
         shear_ratio: 0.25,
@@ -36,7 +40,6 @@ pub fn surface() -> Surface {
         friction: 0.5,
     };
     let laws = SurfaceLaws::of(material);
-    let strip = HexStrip { length: 30e-3, width: 12e-3, pitch: 0.1e-3, rest_area: None };
     Surface::hex_strip(strip, laws).expect("a plate")
 }
 
@@ -48,15 +51,31 @@ impl Rig {
 
     /// The same, with the given resolvers.
     pub fn resolved_by(resolve: Resolve, origin: Vector3<f64>, dt: f64) -> Self {
+        Self::of(surface(), [15e-3, 6e-3], resolve, origin, dt)
+    }
+
+    /// A plate for many balls, at the origin.
+    pub fn wide(dt: f64) -> Self {
+        let strip = HexStrip { length: 150e-3, width: 150e-3, pitch: 0.5e-3, rest_area: None };
+        Self::of(plate(strip), [75e-3; 2], Resolve::Micro, Vector3::zeros(), dt)
+    }
+
+    fn of(
+        surface: Surface,
+        half: [f64; 2],
+        resolve: Resolve,
+        origin: Vector3<f64>,
+        dt: f64,
+    ) -> Self {
         let mut world = PhysicsWorld { gravity: Vector::ZERO, ..PhysicsWorld::default() };
         world.integration_parameters.dt = scalar::narrow(dt);
         let h = scalar::narrow(HALF_THICKNESS);
         let below = scalar::to_vector(&(origin - Vector3::z() * HALF_THICKNESS));
-        let cuboid = ColliderBuilder::cuboid(scalar::narrow(15e-3), scalar::narrow(6e-3), h);
+        let cuboid = ColliderBuilder::cuboid(scalar::narrow(half[0]), scalar::narrow(half[1]), h);
         let proxy = world.colliders.insert(cuboid.translation(below));
-        let mut wear =
-            WearWorld::new(WearSettings { ledger: true, resolve, ..WearSettings::default() });
-        let plate = wear.insert_on_top(surface(), proxy, &mut world.colliders).expect("a proxy");
+        let settings = WearSettings { ledger: true, resolve, ..WearSettings::default() };
+        let mut wear = WearWorld::new(settings);
+        let plate = wear.insert_on_top(surface, proxy, &mut world.colliders).expect("a proxy");
         Self { world, wear, plate, proxy }
     }
 

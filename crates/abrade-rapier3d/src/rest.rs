@@ -1,0 +1,59 @@
+//! When a body rests: how it comes down on its surfaces, and whether it moves along them.
+
+use abrade::Body;
+use nalgebra::Isometry3;
+use rapier::dynamics::RigidBody;
+
+use crate::approach::strike_speed;
+use crate::gate::Course;
+use crate::quasi_static::holds;
+use crate::scalar;
+use crate::start::Scene;
+use crate::surface::SurfaceId;
+use crate::tracked::Tracked;
+
+/// Share of the rest speed below which a body does not move along.
+const CREEP: f64 = 0.05;
+
+impl Scene<'_> {
+    /// True for a body that comes down on its surfaces no faster than what pulls it there makes it
+    /// in a step: it would be back on them within the step.
+    pub fn rests(&self, rb: &RigidBody, tracked: &Tracked) -> bool {
+        if tracked.is_in_blow() {
+            return false;
+        }
+        let course = Course::of(rb, tracked, &scalar::vector(self.world.gravity));
+        let pull = |id: &SurfaceId| {
+            Some(-self.frame(*id)?.inverse_transform_vector(&course.acceleration).z)
+        };
+        let pull = tracked.near.iter().filter_map(pull).fold(0.0, f64::max);
+        let rest_speed = pull * self.dt;
+        let Some(body) = tracked.body() else { return false };
+        if self.strike(body, &course, &tracked.near).is_none_or(|speed| speed >= rest_speed) {
+            return false;
+        }
+        // What moves along and ploughs is braked by it, which Rapier's contact would not do.
+        let load = pull * scalar::wide(rb.mass());
+        let firm = |id: &SurfaceId| {
+            let surface = &self.surfaces[id.0].surface;
+            holds(surface.laws(), surface.nodes().rest_area[0], load)
+        };
+        let speed = course.state.velocity.norm() + course.state.spin.norm() * tracked.radius;
+        speed < CREEP * rest_speed || tracked.near.iter().all(firm)
+    }
+
+    /// Speed with which a body comes down on a surface in this step, if it does [m/s].
+    pub fn strike(&self, body: &Body, course: &Course, surfaces: &[SurfaceId]) -> Option<f64> {
+        let on = |id: &SurfaceId| {
+            let frame = self.frame(*id)?;
+            let pull = -frame.inverse_transform_vector(&course.acceleration).z;
+            let level = self.surfaces[id.0].bounds.high.z;
+            strike_speed(body, &course.state, &frame, level, pull.max(0.0), self.dt)
+        };
+        surfaces.iter().filter_map(on).reduce(f64::max)
+    }
+
+    fn frame(&self, id: SurfaceId) -> Option<Isometry3<f64>> {
+        self.lies.iter().find(|lie| lie.id == id).map(|lie| lie.pose)
+    }
+}

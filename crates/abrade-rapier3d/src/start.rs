@@ -1,0 +1,147 @@
+//! A body at the beginning of a step, and how it is to be carried through it.
+
+use abrade::{Encounter, PhysicsError, State, Until};
+use nalgebra::Isometry3;
+use rapier::dynamics::RigidBodyHandle;
+
+use crate::ahead::Ahead;
+use crate::event::Refusal;
+use crate::gate::{self, Course, Lie, Way};
+use crate::micro::Errand;
+use crate::obstacle::Obstacles;
+use crate::path::Extent;
+use crate::resolve::Left;
+use crate::resolver::Resolve;
+use crate::settings::WearSettings;
+use crate::surface::{SurfaceId, WornCollider};
+use crate::tracked::{Known, Tracked};
+use crate::view::WorldView;
+use crate::{afloat, scalar, shadow};
+
+/// Share of its radius by which a body may lie inside a surface and be lifted out of it.
+const LIFT: f64 = 0.2;
+
+/// What carrying a body looks at.
+pub(crate) struct Scene<'a> {
+    pub world: &'a WorldView<'a>,
+    pub surfaces: &'a [WornCollider],
+    pub lies: &'a [Lie],
+    pub obstacles: &'a Obstacles,
+    pub settings: &'a WearSettings,
+    /// Length of the step [s].
+    pub dt: f64,
+}
+
+/// A body at the beginning of a step.
+pub(crate) struct Start {
+    pub body: RigidBodyHandle,
+    /// The surfaces of its encounter; it is carried in the frame of the first.
+    pub surfaces: Vec<SurfaceId>,
+    pub frame: Isometry3<f64>,
+    bounds: Extent,
+    /// Its state in that frame.
+    pub state: State,
+    /// Its course in the world.
+    pub course: Course,
+    /// An encounter has to begin.
+    pub is_new: bool,
+}
+
+/// How a body is carried through the step.
+pub(crate) enum How {
+    /// It was, ahead.
+    Done(Box<Ahead>),
+    /// At once.
+    Whole,
+    /// In parts: something is in its way.
+    Parts,
+}
+
+impl Scene<'_> {
+    /// Derives the body and reads its state; nothing for one that is gone.
+    pub fn start(&self, tracked: &mut Tracked) -> Result<Option<Start>, Left> {
+        let body = tracked.handle;
+        let Some(rb) = self.world.bodies.get(body) else { return Ok(None) };
+        if let Some(refusal) = gate::bound(self.world, rb, body, &tracked.near, self.surfaces) {
+            return Err(refusal.into());
+        }
+        tracked.derive(rb, self.world.colliders)?;
+        match self.settings.resolve {
+            Resolve::QuasiStatic | Resolve::Lockstep => return Err(Refusal::Asked.into()),
+            Resolve::Auto if self.rests(rb, tracked) => return Err(Refusal::Resting.into()),
+            Resolve::Auto | Resolve::Micro => {}
+        }
+        let known = tracked.live.as_ref().filter(|_| tracked.knows_surfaces(self.lies));
+        let is_new = known.is_none();
+        let surfaces = known.map_or(&tracked.near, |live| &live.surfaces).clone();
+        let Some(&anchor) = surfaces.first() else { return Ok(None) };
+        let Some(lie) = self.lies.iter().find(|lie| lie.id == anchor) else { return Ok(None) };
+        let (frame, bounds) = (lie.pose, self.surfaces[anchor.0].bounds);
+        let course = Course::of(rb, tracked, &scalar::vector(self.world.gravity));
+        let mut state = shadow::read(rb, tracked.shadow.as_ref(), &frame);
+        let Known::Ready(known) = &mut tracked.known else { return Ok(None) };
+        if is_new && tracked.shadow.is_none() {
+            // Rapier's contacts let bodies sink in.
+            let depth = afloat::depth(known, &state, &self.surfaces[anchor.0]);
+            state.position.z += if depth < LIFT * tracked.radius { depth } else { 0.0 };
+        }
+        known.state = state;
+        Ok(Some(Start { body, surfaces, frame, bounds, state, course, is_new }))
+    }
+
+    /// The encounter that the body has or begins.
+    pub fn encounter(&self, start: &Start, tracked: &Tracked) -> Result<Encounter, PhysicsError> {
+        match (&tracked.live, &tracked.known) {
+            (Some(live), _) if !start.is_new => Ok(live.encounter.clone()),
+            (_, Known::Ready(body)) => {
+                let met = start.surfaces.iter().map(|id| &*self.surfaces[id.0].surface);
+                Encounter::new(body, met, self.settings.encounter())
+            }
+            _ => Err(PhysicsError::Unsupported { what: "a body that was not derived" }),
+        }
+    }
+
+    /// What the body is to do.
+    pub fn errand<'a>(&self, way: Way<'a>, start: &Start, until: Until) -> Errand<'a> {
+        let gravity = scalar::vector(self.world.gravity);
+        let loads = gate::loads(way.rb, &gravity, &start.frame);
+        Errand { way, loads, dt: self.dt, until, in_parts: false }
+    }
+
+    /// How to carry the body. Where it could reach something, it is first run as if it were
+    /// alone; if it was then where something else is, it has to look where it goes.
+    pub fn how(
+        &self,
+        ahead: Option<Box<Ahead>>,
+        start: &Start,
+        tracked: &Tracked,
+        errand: &Errand<'_>,
+        is_watched: bool,
+    ) -> Result<How, PhysicsError> {
+        let way = &errand.way;
+        let is_free = || way.in_reach(&start.course, self.dt).is_none();
+        let keeps_clear = |ahead: &Ahead| way.on_track(&ahead.track).is_none();
+        if let Some(ahead) = ahead {
+            let good = keeps_clear(&ahead) || is_free();
+            return Ok(if good { How::Done(ahead) } else { How::Parts });
+        }
+        if is_free() {
+            return Ok(How::Whole);
+        }
+        let encounter = self.encounter(start, tracked)?;
+        match Ahead::run(start, encounter, tracked, self, errand) {
+            Ok(ahead) if keeps_clear(&ahead) && is_watched => Ok(How::Whole),
+            Ok(ahead) if keeps_clear(&ahead) => Ok(How::Done(Box::new(ahead))),
+            _ => Ok(How::Parts),
+        }
+    }
+}
+
+impl Start {
+    /// What may lie in the body's way.
+    pub fn way<'a>(&self, world: &'a WorldView<'_>, obstacles: &'a Obstacles) -> Option<Way<'a>> {
+        let rb = world.bodies.get(self.body)?;
+        let (body, colliders) = (self.body, &*world.colliders);
+        Some(Way { body, rb, colliders, obstacles, frame: self.frame, bounds: self.bounds })
+    }
+}
