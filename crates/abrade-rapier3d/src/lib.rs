@@ -47,6 +47,7 @@ mod observer;
 mod obstacle;
 mod path;
 mod quasi_static;
+mod query_collider;
 mod register;
 mod resolve;
 mod resolver;
