@@ -18,7 +18,7 @@ use crate::wearer::Wearer;
 const COARSEST: f64 = 16.0;
 /// Angle [rad] by which no body turns in a step, where joints hold and where none does: within a
 /// step Rapier's joints are straight.
-const TURN_HELD: f64 = 0.004;
+const TURN_HELD: f64 = 0.002;
 const TURN_FREE: f64 = 0.1;
 /// Iterations of the solver in the first step.
 const FIRST: usize = 32;
@@ -89,6 +89,9 @@ impl Island {
         let pairs = Pairs::of(&world, &proxies);
         let filter = Filter::new(proxies);
         let rewind = Rewind::default();
+        // No time passes: bodies get their masses, joints their places.
+        world.integration_parameters.dt = 0.0;
+        world.step_with_events(&filter, &());
         let (rest_load, coarsest) = (settings.rest_load, 0.0);
         Self {
             world,
