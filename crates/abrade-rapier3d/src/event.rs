@@ -119,6 +119,23 @@ pub enum Refusal {
 }
 
 impl Refusal {
+    /// One word for it, to count by.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Jointed => "jointed",
+            Self::LockedAxes => "locked_axes",
+            Self::Obstructed { .. } => "obstructed",
+            Self::SurfaceMoves => "surface_moves",
+            Self::Shape { .. } => "shape",
+            Self::Massless => "massless",
+            Self::Inside => "inside",
+            Self::Resting => "resting",
+            Self::Asked => "asked",
+            Self::Multibody => "multibody",
+            Self::Crowd { .. } => "crowd",
+        }
+    }
+
     /// True when no resolver can wear anything with the body.
     pub(crate) fn is_final(&self) -> bool {
         matches!(self, Self::SurfaceMoves | Self::Shape { .. } | Self::Massless)

@@ -27,3 +27,14 @@ pub enum Resolver {
     /// The body and all that it touches or is jointed to are stepped finely in a private world.
     Lockstep,
 }
+
+impl Resolver {
+    /// Its name, to count by.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Micro => "micro",
+            Self::QuasiStatic => "quasi_static",
+            Self::Lockstep => "lockstep",
+        }
+    }
+}

@@ -1,6 +1,7 @@
 //! What stands beside a physics world: wear surfaces, what is known of the bodies that wear them,
 //! and what an embedder reads from both.
 
+use std::collections::BTreeMap;
 use std::ops::Index;
 
 use abrade::{Ledger, State, Surface};
@@ -19,6 +20,7 @@ use crate::held::{Before, Held};
 use crate::neighbours::Neighbours;
 use crate::obstacle::Obstacles;
 use crate::path::Extent;
+use crate::resolver::Resolver;
 use crate::settings::{Counters, WearSettings};
 use crate::shadow;
 use crate::steer::Steered;
@@ -54,6 +56,8 @@ pub struct WearWorld {
     pub(crate) driven: Vec<DrivenBody>,
     pub(crate) events: Vec<WearEvent>,
     pub(crate) counters: Counters,
+    /// Body steps that Micro did not resolve, by who did and why it was not Micro.
+    pub(crate) reasons: BTreeMap<(Resolver, &'static str), u64>,
     /// Energies of encounters that have ended.
     pub(crate) closed: Ledger,
     /// The step under way.
@@ -158,6 +162,12 @@ impl WearWorld {
         }
         self.driven.iter().for_each(|driven| sum += *driven.ledger());
         sum
+    }
+
+    /// Body steps that Micro did not resolve since the world was made: by whom, why not by Micro
+    /// ([`Refusal::name`](crate::Refusal::name)), and how many.
+    pub fn reasons(&self) -> impl Iterator<Item = (Resolver, &'static str, u64)> {
+        self.reasons.iter().map(|((by, why), count)| (*by, *why, *count))
     }
 
     /// What was done since the world was made.
