@@ -30,6 +30,9 @@ const STRUCK: f64 = 1.5;
 pub struct IslandSettings {
     /// Steps after which an advance is given up.
     pub step_limit: u64,
+    /// Steps after which the island is put to rest on Rapier's contacts, for the rest of the
+    /// advance.
+    pub budget: u64,
     /// Normal speed below which a body that rings on its springs rests [m/s]; zero for never.
     pub rest_speed: f64,
     /// Load that contacts at rest bore before [N].
@@ -41,8 +44,6 @@ pub struct IslandSettings {
 pub struct Done {
     /// Steps taken.
     pub steps: u64,
-    /// Nodes taken through the law.
-    pub node_evaluations: u64,
 }
 
 /// An island of bodies in a world of its own.
@@ -134,6 +135,9 @@ impl Island {
         self.let_rest(surfaces);
         while time < duration {
             let remaining = duration - time;
+            if done.steps >= self.settings.budget {
+                return self.rest_out(surfaces, remaining, done);
+            }
             let h = self.length(surfaces).min(self.turning()).min(self.coarsest).min(remaining);
             let h = self.pairs.limit(h, &self.world);
             let taken = self.step(surfaces, h)?;
@@ -144,7 +148,28 @@ impl Island {
             }
             watch(self, time, surfaces);
         }
-        done.node_evaluations = self.wearers.iter().map(Wearer::node_evaluations).sum();
+        Ok(done)
+    }
+
+    /// Nodes taken through the law by the wearing bodies since they joined.
+    pub fn node_evaluations(&self) -> u64 {
+        self.wearers.iter().map(Wearer::node_evaluations).sum()
+    }
+
+    /// Takes the rest of an advance in long steps, every wearing body on a contact of Rapier's.
+    fn rest_out(
+        &mut self,
+        surfaces: &mut [Placed<'_>],
+        remaining: f64,
+        mut done: Done,
+    ) -> Result<Done, PhysicsError> {
+        self.wearers.iter_mut().for_each(|w| w.calm.rests = true);
+        self.mark();
+        self.rest_load = f64::INFINITY;
+        for _ in 0..COARSEST as usize {
+            self.step(surfaces, remaining / COARSEST)?;
+            done.steps += 1;
+        }
         Ok(done)
     }
 

@@ -148,11 +148,6 @@ fn plate() -> Surface {
         friction: 0.5,
     };
     let convention = HertzConvention::ElasticPair;
-    let laws = SurfaceLaws {
-        material,
-        elastic: ElasticLaw::HertzNodes { node_radius: NODE_RADIUS, convention },
-        flow: FlowLaw::CapozzaHanley { lateral: Lateral::Projected },
-        removal: Removal::All,
-    };
+    let laws = SurfaceLaws::of(material);
     Surface::hex_strip(HexStrip::with_nodes(EDGE, EDGE, NODES), laws).expect("a plate")
 }

@@ -99,7 +99,6 @@ impl WearWorld {
         match result {
             Ok((bodies, (shares, done))) => {
                 self.counters.steps += done.steps;
-                self.counters.node_evaluations += done.node_evaluations;
                 for share in shares {
                     let reason = held.iter().find(|h| h.body == share.body).map(|h| h.reason);
                     self.book_share(share, reason);

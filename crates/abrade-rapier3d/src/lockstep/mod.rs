@@ -23,11 +23,16 @@ use crate::lockstep::copy::copy;
 use crate::lockstep::members::Members;
 pub(crate) use crate::lockstep::members::gather;
 use crate::micro::place;
+use crate::resolver::Resolve;
 use crate::surface::SurfaceId;
 use crate::tracked::Tracked;
 use crate::view::WorldView;
 use crate::world::WearWorld;
 use crate::{gate, scalar, shadow, steer};
+
+/// Steps of an island in a step of the embedder, times its bodies, after which it is put to rest:
+/// a fraction of a second.
+const BUDGET: u64 = 24_000;
 
 /// Why an island was not resolved.
 pub(crate) enum Lost {
@@ -104,12 +109,17 @@ impl WearWorld {
         let proxies = proxies.iter().filter_map(inner).collect();
         let rest_load = held.iter().map(|h| h.bore).sum();
         let step_limit = self.settings.step_limit;
-        let settings = IslandSettings { step_limit, rest_speed, rest_load };
+        let budget = match self.settings.resolve {
+            Resolve::Lockstep => u64::MAX,
+            _ => BUDGET / members.bodies.len().max(1) as u64,
+        };
+        let settings = IslandSettings { step_limit, budget, rest_speed, rest_load };
         let mut island = Island::new(copy.world, wearers, proxies, settings);
         let dt = self.current.dt;
         let done = island
             .advance(&mut placed, dt, &mut |_, _, _| ())
             .map_err(|error| Lost::Failed(held[0].body, error))?;
+        self.counters.node_evaluations += island.node_evaluations();
         hand_back(&island, &copy.bodies, &members, world);
         Ok((self.settle_island(island, &held, &ids, world), done))
     }
