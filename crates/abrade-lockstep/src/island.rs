@@ -1,7 +1,7 @@
 //! The island and its steps.
 
 use abrade::{Met, PhysicsError, Placed, State};
-use rapier::dynamics::{RigidBody, RigidBodyHandle};
+use rapier::dynamics::{GenericJoint, RigidBody, RigidBodyHandle};
 use rapier::geometry::{ColliderHandle, NarrowPhase};
 use rapier::math::Vector;
 use rapier::pipeline::{ActiveHooks, PhysicsWorld};
@@ -314,6 +314,31 @@ impl Island {
     /// Ends every contact: overhangs break off.
     pub fn end(&mut self, surfaces: &mut [Placed<'_>]) {
         self.wearers.iter_mut().for_each(|w| w.end(surfaces));
+    }
+
+    /// Kinetic energy of its bodies, and with their height [J].
+    pub fn energies(&self) -> [f64; 2] {
+        let world = &self.world;
+        let kinetic: f64 = world.bodies.iter().map(|(_, rb)| rb.kinetic_energy()).sum();
+        let height = |rb: &RigidBody| {
+            -rb.mass() * rb.gravity_scale() * world.gravity.dot(rb.center_of_mass())
+        };
+        let dynamic = world.bodies.iter().filter(|(_, rb)| rb.is_dynamic());
+        [kinetic, kinetic + dynamic.map(|(_, rb)| height(rb)).sum::<f64>()]
+    }
+
+    /// True when something beside gravity and contacts may do work on it: a motor, a force of the
+    /// embedder, or springs that were loaded when it was made.
+    pub fn is_driven(&self) -> bool {
+        let motors = |joint: &GenericJoint| !joint.motor_axes.is_empty();
+        let forces = |rb: &RigidBody| rb.is_kinematic();
+        self.world.impulse_joints.iter().any(|(_, joint)| motors(&joint.data))
+            || self.world.bodies.iter().any(|(_, rb)| forces(rb))
+            || self
+                .loads
+                .iter()
+                .any(|(_, force, torque)| force.length() > 0.0 || torque.length() > 0.0)
+            || self.wearers.iter().any(|wearer| wearer.contact.in_contact())
     }
 
     /// State of a body of its world.

@@ -101,6 +101,9 @@ pub enum Refusal {
     /// The world asks for another resolver.
     #[error("the world asks for another resolver")]
     Asked,
+    /// A contact of its island was too stiff or too long for it.
+    #[error("a contact of the island was too stiff, or took too many steps")]
+    Stiff,
     /// It is a link of a multibody.
     #[error("a body of the island is a link of a multibody")]
     Multibody,
@@ -131,6 +134,7 @@ impl Refusal {
             Self::Inside => "inside",
             Self::Resting => "resting",
             Self::Asked => "asked",
+            Self::Stiff => "stiff",
             Self::Multibody => "multibody",
             Self::Crowd { .. } => "crowd",
         }

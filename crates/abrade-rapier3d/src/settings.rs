@@ -5,6 +5,9 @@ use rapier::dynamics::RigidBodyHandle;
 
 use crate::resolver::Resolve;
 
+/// Contact steps of a body in a step of the embedder after which Auto hands it on: about a second.
+const AUTO_STEPS: u64 = 1_000_000;
+
 /// Settings of a [`WearWorld`](crate::WearWorld).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WearSettings {
@@ -37,7 +40,10 @@ impl WearSettings {
         EncounterSettings {
             accuracy: self.accuracy,
             ledger: self.ledger,
-            step_limit: self.step_limit,
+            step_limit: match self.resolve {
+                Resolve::Auto => self.step_limit.min(AUTO_STEPS),
+                _ => self.step_limit,
+            },
         }
     }
 }

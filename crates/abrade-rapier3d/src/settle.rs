@@ -109,12 +109,28 @@ impl WearWorld {
                 self.events.push(WearEvent::NoIsland { body: first.body, reason });
                 Vec::new()
             }
+            Err(Lost::Failed(body, error)) if self.can_go_on(&error) => {
+                let reason = Refusal::Stiff;
+                self.events.push(WearEvent::NoIsland { body, reason });
+                Vec::new()
+            }
             Err(Lost::Failed(body, error)) => {
                 let surface = first.surfaces[0];
                 self.fail(body, surface, error);
                 vec![first.body]
             }
         }
+    }
+
+    /// True for an error of an island that another resolver need not share.
+    fn can_go_on(&self, error: &PhysicsError) -> bool {
+        let stiff = matches!(
+            error,
+            PhysicsError::StepVanished { .. }
+                | PhysicsError::TooManySteps { .. }
+                | PhysicsError::StartsInside { .. }
+        );
+        stiff && self.settings.resolve == Resolve::Auto
     }
 
     fn book_share(&mut self, share: Share, reason: Option<Refusal>) {

@@ -82,7 +82,7 @@ impl Scene<'_> {
         let course = Course::of(rb, tracked, &scalar::vector(self.world.gravity));
         let mut state = shadow::read(rb, tracked.shadow.as_ref(), &frame);
         let Known::Ready(known) = &mut tracked.known else { return Ok(None) };
-        if is_new && tracked.shadow.is_none() {
+        if is_new && !tracked.is_placed {
             // Rapier's contacts let bodies sink in.
             let depth = afloat::depth(known, &state, &self.surfaces[anchor.0]);
             state.position.z += if depth < LIFT * tracked.radius { depth } else { 0.0 };

@@ -27,6 +27,8 @@ pub(crate) struct Tracked {
     /// Registered by the embedder: shape and inertia are the embedder's, whatever the colliders.
     pub registered: bool,
     pub known: Known,
+    /// It was placed by the embedder and not resolved since: where it starts is no engine's doing.
+    pub is_placed: bool,
     /// Radius that holds the body about its centre of mass [m].
     pub radius: f64,
     pub shadow: Option<Shadow>,
@@ -75,6 +77,7 @@ impl Tracked {
         Self {
             handle,
             registered: false,
+            is_placed: false,
             known: Known::Unseen,
             radius: 0.0,
             shadow: None,
@@ -109,6 +112,7 @@ impl Tracked {
     /// Takes the embedder's shape, inertia and lock in place of the colliders'.
     pub fn register(&mut self, body: Body) {
         self.registered = true;
+        self.is_placed = true;
         self.radius = body.shape.bounding_radius();
         self.known = Known::Ready(Box::new(body));
     }
