@@ -46,6 +46,7 @@ mod neighbours;
 mod observer;
 mod obstacle;
 mod path;
+mod print;
 mod quasi_static;
 mod register;
 mod resolve;
@@ -55,6 +56,8 @@ pub mod scalar;
 mod settings;
 mod settle;
 mod shadow;
+#[cfg(feature = "serde-serialize")]
+mod snapshot;
 mod start;
 mod steer;
 mod step;
