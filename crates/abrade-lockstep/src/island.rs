@@ -18,8 +18,10 @@ use crate::wearer::Wearer;
 const COARSEST: f64 = 16.0;
 /// Angle [rad] by which no body turns in a step, where joints hold and where none does: within a
 /// step Rapier's joints are straight.
-const TURN_HELD: f64 = 0.02;
+const TURN_HELD: f64 = 0.002;
 const TURN_FREE: f64 = 0.1;
+/// Iterations of the solver in the first step.
+const FIRST: usize = 32;
 /// A contact at rest is struck when its impulse exceeds what it carried before by this factor.
 const STRUCK: f64 = 1.5;
 
@@ -57,6 +59,8 @@ pub struct Island {
     rest_load: f64,
     /// Longest step [s].
     coarsest: f64,
+    /// It has not taken a step yet.
+    is_new: bool,
 }
 
 impl Island {
@@ -85,8 +89,22 @@ impl Island {
         let pairs = Pairs::of(&world, &proxies);
         let filter = Filter::new(proxies);
         let rewind = Rewind::default();
+        // No time passes: bodies get their masses, joints their places.
+        world.integration_parameters.dt = 0.0;
+        world.step_with_events(&filter, &());
         let (rest_load, coarsest) = (settings.rest_load, 0.0);
-        Self { world, wearers, loads, filter, pairs, rewind, settings, rest_load, coarsest }
+        Self {
+            world,
+            wearers,
+            loads,
+            filter,
+            pairs,
+            rewind,
+            settings,
+            rest_load,
+            coarsest,
+            is_new: true,
+        }
     }
 
     /// The world.
@@ -168,7 +186,10 @@ impl Island {
                 return Err(PhysicsError::StepVanished { step: h });
             }
             self.push(surfaces, h);
-            self.world.integration_parameters.dt = h;
+            let parameters = &mut self.world.integration_parameters;
+            parameters.dt = h;
+            // Without the impulses of a step before, one iteration does not reach through a joint.
+            parameters.num_internal_pgs_iterations = if self.is_new { FIRST } else { 1 };
             self.world.step_with_events(&self.filter, &());
             match self.follow(surfaces, h)? {
                 Met::Fits => break,
@@ -178,6 +199,7 @@ impl Island {
                 }
             }
         }
+        self.is_new = false;
         self.watch_calm(surfaces, h);
         Ok(h)
     }

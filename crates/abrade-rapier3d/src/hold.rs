@@ -51,6 +51,7 @@ impl WearWorld {
             obstacles: &self.obstacles,
             settings: &self.settings,
             dt: self.current.dt,
+            sight: self.current.sight,
         };
         let tracked = Tracked::find(&self.bodies, handle);
         let (Some(tracked), Some(rb)) = (tracked, world.bodies.get(handle)) else { return false };

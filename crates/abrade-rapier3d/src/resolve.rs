@@ -121,6 +121,7 @@ impl WearWorld {
             obstacles: &self.obstacles,
             settings: &self.settings,
             dt,
+            sight: self.current.sight,
         };
         let Some(start) = scene.start(tracked)? else { return Ok(()) };
         // An encounter goes on in the frame it began in.

@@ -48,7 +48,7 @@ impl Scene<'_> {
             let frame = self.frame(*id)?;
             let pull = -frame.inverse_transform_vector(&course.acceleration).z;
             let level = self.surfaces[id.0].bounds.high.z;
-            strike_speed(body, &course.state, &frame, level, pull.max(0.0), self.dt)
+            strike_speed(body, &course.state, &frame, level, pull.max(0.0), self.sight)
         };
         surfaces.iter().filter_map(on).reduce(f64::max)
     }

@@ -21,6 +21,10 @@ const GROWTH: f64 = 1.5;
 
 /// Share of Rapier's geometric slop by which a body may lie in a surface.
 const SLACK: f64 = 0.1;
+/// Weights above which a load is more than Rapier's contact stands, and the share of its radius
+/// that a lighter body may sink.
+const HEAVY: f64 = 3.0;
+const SUNK: f64 = 0.1;
 
 impl WearWorld {
     /// Resolves every body that Rapier kept in hand.
@@ -142,15 +146,30 @@ impl WearWorld {
 
     /// Lifts a body to the surface where Rapier let it sink.
     fn keep_afloat(&mut self, held: &Held, world: &mut WorldView<'_>) {
-        let slack = SLACK * scalar::wide(world.parameters.allowed_linear_error());
+        let Some(rb) = world.bodies.get(held.body) else { return };
+        let tracked = Tracked::slot(&mut self.bodies, held.body);
+        let load: f64 = tracked.borne.iter().map(|(_, load)| load).sum();
+        let weight = scalar::wide(rb.mass()) * held.rest_speed / self.current.dt;
+        // What a body's own weight makes it sink is Rapier's affair: a lift would keep it awake.
+        let slack = match load > HEAVY * weight {
+            true => SLACK * scalar::wide(world.parameters.allowed_linear_error()),
+            false => SUNK * tracked.radius,
+        };
         for id in &held.surfaces {
             let tracked = Tracked::slot(&mut self.bodies, held.body);
             let lie = self.lies.iter().find(|lie| lie.id == *id);
-            let (Some(rb), Some(lie)) = (world.bodies.get_mut(held.body), lie) else { continue };
+            // Asking for it mutably would keep the body awake.
+            let (Some(rb), Some(lie)) = (world.bodies.get(held.body), lie) else { continue };
             let Some(body) = tracked.body() else { continue };
             let mut state = shadow::read(rb, tracked.shadow.as_ref(), &lie.pose);
             let depth = afloat::depth(body, &state, &self.surfaces[id.0]);
-            if depth > slack && depth < body.shape.bounding_radius() {
+            let before =
+                self.before.of(held.body).map_or(0.0, |b| b.seen_from(&lie.pose).position.z);
+            let sunk = (before - state.position.z).max(0.0) + body.shape.bounding_radius();
+            if depth > slack
+                && depth < sunk
+                && let Some(rb) = world.bodies.get_mut(held.body)
+            {
                 state.position.z += depth;
                 tracked.shadow = Some(shadow::write(rb, lie.pose, state));
                 steer::carry_colliders(rb, world.colliders);

@@ -30,6 +30,8 @@ pub(crate) struct Scene<'a> {
     pub settings: &'a WearSettings,
     /// Length of the step [s].
     pub dt: f64,
+    /// Time within which a contact that is to come matters [s].
+    pub sight: f64,
 }
 
 /// A body at the beginning of a step.

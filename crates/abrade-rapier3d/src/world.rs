@@ -71,6 +71,8 @@ pub(crate) struct Integrated {
 #[derive(Default)]
 pub(crate) struct Current {
     pub dt: f64,
+    /// Time within which a contact that is to come matters: the step and another substep [s].
+    pub sight: f64,
     pub exited: Option<RigidBodyHandle>,
     pub failure: Option<WearError>,
     /// Box around wherever bodies near a surface may get.
