@@ -55,8 +55,29 @@ impl Serialize for WearWorld {
         if self.current.dt != 0.0 {
             return Err(S::Error::custom("a step of the wear world is under way"));
         }
+        // Every field is named: a new one is either written or made anew by every step.
         let Self {
-            settings, surfaces, bodies, taken, registered, driven, counters, closed, ..
+            settings,
+            surfaces,
+            bodies,
+            taken,
+            registered,
+            driven,
+            counters,
+            closed,
+            obstacles: _,
+            neighbours: _,
+            changed: _,
+            lies: _,
+            candidates: _,
+            glances: _,
+            picked: _,
+            integrated: _,
+            steered: _,
+            held: _,
+            before: _,
+            events: _,
+            current: _,
         } = self;
         Written { settings, surfaces, taken, bodies, registered, driven, counters, closed }
             .serialize(to)
@@ -119,7 +140,6 @@ impl Read {
         require(accuracy.is_finite() && accuracy > 0.0, "the accuracy is out of range")?;
         require(self.taken.is_of(&self.surfaces), "a proxy is missing or taken twice")?;
         require(self.counters.are_sound(), "a counter is out of range")?;
-        require(self.closed.numerical().is_finite(), "an energy is not finite")?;
         for (index, tracked) in self.bodies.iter().enumerate() {
             let Some(tracked) = tracked else { continue };
             let (own, _) = tracked.handle.into_raw_parts();
@@ -134,9 +154,10 @@ impl Read {
     }
 
     fn check_body(&self, tracked: &Tracked) -> Result<(), &'static str> {
-        let sizes = [tracked.radius, tracked.friction].into_iter();
-        let mut sizes = sizes.chain(tracked.borne.iter().map(|(_, load)| *load));
-        require(sizes.all(is_size), "a size or load of a body is out of range")?;
+        // The radius of what is everywhere is infinite.
+        let loads = tracked.borne.iter().map(|(_, load)| *load);
+        let sizes = tracked.radius >= 0.0 && loads.chain([tracked.friction]).all(is_size);
+        require(sizes, "a size or load of a body is out of range")?;
         let state = tracked.shadow.as_ref().is_none_or(|shadow| shadow.is_sound());
         require(state, "a state is out of range")?;
         let borne = tracked.borne.iter().all(|(id, _)| self.have(&[*id]));

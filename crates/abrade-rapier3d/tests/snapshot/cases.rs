@@ -120,7 +120,9 @@ impl Plate {
             .translation(v(0.0, 0.0, -0.01))
             .friction(n(0.3));
         let proxy = world.colliders.insert(slab);
-        let settings = WearSettings { ledger: true, resolve, ..WearSettings::default() };
+        // Damaged bytes may ask for any number of steps.
+        let settings =
+            WearSettings { ledger: true, step_limit: 3000, resolve, ..WearSettings::default() };
         let mut wear = WearWorld::new(settings);
         let plate = wear.insert_on_top(surface, proxy, &mut world.colliders).expect("a proxy");
         (Save { world, wear }, plate)
