@@ -72,6 +72,7 @@ pub enum WearEvent {
 
 /// Why the gate refused a body for a step.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub enum Refusal {
     /// It is held by a joint.
     #[error("the body is held by a joint")]

@@ -28,6 +28,11 @@ use crate::surface::{SurfaceId, WornCollider};
 use crate::tracked::Tracked;
 
 /// Wear surfaces and the bodies that wear them, beside a physics world of Rapier's.
+///
+/// With the feature `serde-serialize`, which turns on Rapier's of the same name, it is written and
+/// read by any binary format of serde between two steps, in the middle of contacts too: a run that
+/// goes on from Rapier's world and this one gives the same bits. The events of the last step are
+/// not kept.
 #[derive(Default)]
 pub struct WearWorld {
     pub(crate) settings: WearSettings,
