@@ -7,9 +7,7 @@
 
 use std::time::{Duration, Instant};
 
-use abrade_rapier3d_f64::abrade::{
-    ElasticLaw, FlowLaw, HexStrip, Material, Removal, Surface, SurfaceLaws,
-};
+use abrade_rapier3d_f64::abrade::{HexStrip, Material, Surface, SurfaceLaws};
 use abrade_rapier3d_f64::rapier::math::Vector;
 use abrade_rapier3d_f64::rapier::prelude::*;
 use abrade_rapier3d_f64::{WearSettings, WearWorld};

@@ -51,6 +51,7 @@ mod obstacle;
 mod path;
 mod print;
 mod quasi_static;
+mod query_collider;
 mod register;
 mod resolve;
 mod resolver;

@@ -137,7 +137,7 @@ impl WearWorld {
         let Share { body, impulse, contact_time, touches, worn } = share;
         self.counters.lockstep += 1;
         if let Some(reason) = reason {
-            *self.reasons.entry((Resolver::Lockstep, reason.name())).or_default() += 1;
+            *self.reasons.entry((Resolver::Lockstep, reason.name().into())).or_default() += 1;
         }
         let tracked = Tracked::slot(&mut self.bodies, body);
         tracked.let_go(&mut self.surfaces, &mut self.closed);
@@ -149,7 +149,7 @@ impl WearWorld {
     /// QuasiStatic: presses the nodes under the body by what it bore.
     fn press(&mut self, held: &Held, world: &mut WorldView<'_>, observer: &mut dyn WearObserver) {
         self.counters.quasi_static += 1;
-        *self.reasons.entry((Resolver::QuasiStatic, held.reason.name())).or_default() += 1;
+        *self.reasons.entry((Resolver::QuasiStatic, held.reason.name().into())).or_default() += 1;
         let tracked = Tracked::slot(&mut self.bodies, held.body);
         tracked.hand_to(Resolver::QuasiStatic, Some(held.reason), &mut self.events);
         tracked.wearer = None;

@@ -20,7 +20,7 @@ use crate::scalar;
 use crate::settings::{Counters, WearSettings};
 use crate::surface::{SurfaceId, WornCollider};
 use crate::tracked::Tracked;
-use crate::world::WearWorld;
+use crate::world::{Reasons, WearWorld};
 
 /// Round-off of unit vectors that have turned for long.
 const UNIT: f64 = 1e-6;
@@ -35,6 +35,7 @@ struct Written<'a> {
     driven: &'a [DrivenBody],
     counters: &'a Counters,
     closed: &'a Ledger,
+    reasons: &'a Reasons,
 }
 
 #[derive(serde::Deserialize)]
@@ -47,6 +48,7 @@ struct Read {
     driven: Vec<DrivenBody>,
     counters: Counters,
     closed: Ledger,
+    reasons: Reasons,
 }
 
 /// Between two steps; in the middle of one it is refused.
@@ -65,6 +67,7 @@ impl Serialize for WearWorld {
             driven,
             counters,
             closed,
+            reasons,
             obstacles: _,
             neighbours: _,
             changed: _,
@@ -79,7 +82,7 @@ impl Serialize for WearWorld {
             events: _,
             current: _,
         } = self;
-        Written { settings, surfaces, taken, bodies, registered, driven, counters, closed }
+        Written { settings, surfaces, taken, bodies, registered, driven, counters, closed, reasons }
             .serialize(to)
     }
 }
@@ -88,9 +91,19 @@ impl<'de> Deserialize<'de> for WearWorld {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         let read = Read::deserialize(from)?;
         read.check().map_err(D::Error::custom)?;
-        let Read { settings, surfaces, taken, bodies, registered, driven, counters, closed } = read;
+        let Read {
+            settings,
+            surfaces,
+            taken,
+            bodies,
+            registered,
+            driven,
+            counters,
+            closed,
+            reasons,
+        } = read;
         let empty = Self::new(settings);
-        Ok(Self { surfaces, taken, bodies, registered, driven, counters, closed, ..empty })
+        Ok(Self { surfaces, taken, bodies, registered, driven, counters, closed, reasons, ..empty })
     }
 }
 

@@ -10,6 +10,7 @@ use rapier::geometry::{Collider, ColliderHandle, ColliderSet};
 use rapier::math::Pose;
 
 use crate::path::Extent;
+use crate::query_collider::Shown;
 use crate::scalar;
 
 /// Names a wear surface of a [`WearWorld`](crate::WearWorld).
@@ -36,6 +37,8 @@ pub(crate) struct WornCollider {
     pub bounds: Extent,
     /// What the elastic law inflates bodies by [m].
     pub inflation: f64,
+    /// What rays and characters see of it.
+    pub shown: Option<Shown>,
 }
 
 impl WornCollider {
@@ -47,7 +50,7 @@ impl WornCollider {
         };
         let bounds = Extent { low, high };
         let surface = Arc::new(surface);
-        Self { surface, proxy, offset, exact: None, bounds, inflation }
+        Self { surface, proxy, offset, exact: None, bounds, inflation, shown: None }
     }
 
     /// Lays the surface's frame where the proxy's pose cannot say exactly.

@@ -1,6 +1,7 @@
 //! What stands beside a physics world: wear surfaces, what is known of the bodies that wear them,
 //! and what an embedder reads from both.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Index;
 
@@ -62,12 +63,15 @@ pub struct WearWorld {
     pub(crate) events: Vec<WearEvent>,
     pub(crate) counters: Counters,
     /// Body steps that Micro did not resolve, by who did and why it was not Micro.
-    pub(crate) reasons: BTreeMap<(Resolver, &'static str), u64>,
+    pub(crate) reasons: Reasons,
     /// Energies of encounters that have ended.
     pub(crate) closed: Ledger,
     /// The step under way.
     pub(crate) current: Current,
 }
+
+/// Body steps by resolver and [`Refusal::name`](crate::Refusal::name).
+pub(crate) type Reasons = BTreeMap<(Resolver, Cow<'static, str>), u64>;
 
 /// Where the integration of a body ended, given in `frame`.
 pub(crate) struct Integrated {
@@ -171,8 +175,8 @@ impl WearWorld {
 
     /// Body steps that Micro did not resolve since the world was made: by whom, why not by Micro
     /// ([`Refusal::name`](crate::Refusal::name)), and how many.
-    pub fn reasons(&self) -> impl Iterator<Item = (Resolver, &'static str, u64)> {
-        self.reasons.iter().map(|((by, why), count)| (*by, *why, *count))
+    pub fn reasons(&self) -> impl Iterator<Item = (Resolver, &str, u64)> {
+        self.reasons.iter().map(|((by, why), count)| (*by, &**why, *count))
     }
 
     /// What was done since the world was made.

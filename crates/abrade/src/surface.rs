@@ -307,6 +307,12 @@ impl Surface {
         self.pitch
     }
 
+    /// Numbers of columns along x and of rows along y. Node `row` of a column is the column's
+    /// number times the rows, plus `row`; odd columns are shifted by half a pitch.
+    pub fn columns_rows(&self) -> [usize; 2] {
+        self.columns_rows
+    }
+
     /// The normal of every node, where they agree.
     pub(crate) fn level(&self) -> Option<Vector3<f64>> {
         self.level

@@ -107,16 +107,6 @@ impl Rig {
     pub fn step(&mut self) {
         self.wear.step(&mut self.world, &(), &()).expect("a step inside the model");
         self.time += self.case.dt;
-        if std::env::var("TRACE").is_ok() {
-            let rb = self
-                .world
-                .bodies
-                .iter()
-                .filter(|(_, b)| b.is_dynamic())
-                .map(|(_, b)| (b.translation(), b.linvel()))
-                .collect::<Vec<_>>();
-            println!("t {:.4} W {:.3e} {:?}", self.time, self.volume(), rb);
-        }
     }
 
     /// Steps for `duration` [s], `drive` being called before each step.

@@ -6,5 +6,6 @@ mod gate;
 mod hail;
 mod hooks;
 mod independence;
+mod query_collider;
 mod rig;
 mod shadow;
