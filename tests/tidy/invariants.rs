@@ -12,7 +12,8 @@ const CLOCK_AND_FILES: [&str; 6] =
 const SCALARS: [&str; 5] = ["f32", "Real", "glam", "glamx", "SimdReal"];
 
 /// The files that may name the engine: the plug-in, and where a scene's world is made of it.
-const ENGINE_ROOMS: [&str; 5] = [
+const ENGINE_ROOMS: [&str; 6] = [
+    "crates/abrade-lockstep/",
     "crates/abrade-rapier3d/",
     "crates/abrade-rapier3d-f64/",
     "crates/abrade-scene/src/run/single.rs",

@@ -9,6 +9,7 @@ const PERIODS: f64 = 3.0;
 
 /// How long a body has been slow in contact.
 #[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Calm {
     slow: f64,
     still: f64,

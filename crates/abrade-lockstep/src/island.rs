@@ -1,7 +1,7 @@
 //! The island and its steps.
 
 use abrade::{Met, PhysicsError, Placed, State};
-use rapier::dynamics::{RigidBody, RigidBodyHandle};
+use rapier::dynamics::{GenericJoint, RigidBody, RigidBodyHandle};
 use rapier::geometry::{ColliderHandle, NarrowPhase};
 use rapier::math::Vector;
 use rapier::pipeline::{ActiveHooks, PhysicsWorld};
@@ -18,8 +18,10 @@ use crate::wearer::Wearer;
 const COARSEST: f64 = 16.0;
 /// Angle [rad] by which no body turns in a step, where joints hold and where none does: within a
 /// step Rapier's joints are straight.
-const TURN_HELD: f64 = 0.02;
+const TURN_HELD: f64 = 0.002;
 const TURN_FREE: f64 = 0.1;
+/// Iterations of the solver in the first step.
+const FIRST: usize = 32;
 /// A contact at rest is struck when its impulse exceeds what it carried before by this factor.
 const STRUCK: f64 = 1.5;
 
@@ -28,6 +30,9 @@ const STRUCK: f64 = 1.5;
 pub struct IslandSettings {
     /// Steps after which an advance is given up.
     pub step_limit: u64,
+    /// Steps after which the island is put to rest on Rapier's contacts, for the rest of the
+    /// advance.
+    pub budget: u64,
     /// Normal speed below which a body that rings on its springs rests [m/s]; zero for never.
     pub rest_speed: f64,
     /// Load that contacts at rest bore before [N].
@@ -39,8 +44,6 @@ pub struct IslandSettings {
 pub struct Done {
     /// Steps taken.
     pub steps: u64,
-    /// Nodes taken through the law.
-    pub node_evaluations: u64,
 }
 
 /// An island of bodies in a world of its own.
@@ -57,6 +60,8 @@ pub struct Island {
     rest_load: f64,
     /// Longest step [s].
     coarsest: f64,
+    /// It has not taken a step yet.
+    is_new: bool,
 }
 
 impl Island {
@@ -85,8 +90,22 @@ impl Island {
         let pairs = Pairs::of(&world, &proxies);
         let filter = Filter::new(proxies);
         let rewind = Rewind::default();
+        // No time passes: bodies get their masses, joints their places.
+        world.integration_parameters.dt = 0.0;
+        world.step_with_events(&filter, &());
         let (rest_load, coarsest) = (settings.rest_load, 0.0);
-        Self { world, wearers, loads, filter, pairs, rewind, settings, rest_load, coarsest }
+        Self {
+            world,
+            wearers,
+            loads,
+            filter,
+            pairs,
+            rewind,
+            settings,
+            rest_load,
+            coarsest,
+            is_new: true,
+        }
     }
 
     /// The world.
@@ -116,6 +135,9 @@ impl Island {
         self.let_rest(surfaces);
         while time < duration {
             let remaining = duration - time;
+            if done.steps >= self.settings.budget {
+                return self.rest_out(surfaces, remaining, done);
+            }
             let h = self.length(surfaces).min(self.turning()).min(self.coarsest).min(remaining);
             let h = self.pairs.limit(h, &self.world);
             let taken = self.step(surfaces, h)?;
@@ -126,7 +148,28 @@ impl Island {
             }
             watch(self, time, surfaces);
         }
-        done.node_evaluations = self.wearers.iter().map(Wearer::node_evaluations).sum();
+        Ok(done)
+    }
+
+    /// Nodes taken through the law by the wearing bodies since they joined.
+    pub fn node_evaluations(&self) -> u64 {
+        self.wearers.iter().map(Wearer::node_evaluations).sum()
+    }
+
+    /// Takes the rest of an advance in long steps, every wearing body on a contact of Rapier's.
+    fn rest_out(
+        &mut self,
+        surfaces: &mut [Placed<'_>],
+        remaining: f64,
+        mut done: Done,
+    ) -> Result<Done, PhysicsError> {
+        self.wearers.iter_mut().for_each(|w| w.calm.rests = true);
+        self.mark();
+        self.rest_load = f64::INFINITY;
+        for _ in 0..COARSEST as usize {
+            self.step(surfaces, remaining / COARSEST)?;
+            done.steps += 1;
+        }
         Ok(done)
     }
 
@@ -168,7 +211,10 @@ impl Island {
                 return Err(PhysicsError::StepVanished { step: h });
             }
             self.push(surfaces, h);
-            self.world.integration_parameters.dt = h;
+            let parameters = &mut self.world.integration_parameters;
+            parameters.dt = h;
+            // Without the impulses of a step before, one iteration does not reach through a joint.
+            parameters.num_internal_pgs_iterations = if self.is_new { FIRST } else { 1 };
             self.world.step_with_events(&self.filter, &());
             match self.follow(surfaces, h)? {
                 Met::Fits => break,
@@ -178,6 +224,7 @@ impl Island {
                 }
             }
         }
+        self.is_new = false;
         self.watch_calm(surfaces, h);
         Ok(h)
     }
@@ -267,6 +314,31 @@ impl Island {
     /// Ends every contact: overhangs break off.
     pub fn end(&mut self, surfaces: &mut [Placed<'_>]) {
         self.wearers.iter_mut().for_each(|w| w.end(surfaces));
+    }
+
+    /// Kinetic energy of its bodies, and with their height [J].
+    pub fn energies(&self) -> [f64; 2] {
+        let world = &self.world;
+        let kinetic: f64 = world.bodies.iter().map(|(_, rb)| rb.kinetic_energy()).sum();
+        let height = |rb: &RigidBody| {
+            -rb.mass() * rb.gravity_scale() * world.gravity.dot(rb.center_of_mass())
+        };
+        let dynamic = world.bodies.iter().filter(|(_, rb)| rb.is_dynamic());
+        [kinetic, kinetic + dynamic.map(|(_, rb)| height(rb)).sum::<f64>()]
+    }
+
+    /// True when something beside gravity and contacts may do work on it: a motor, a force of the
+    /// embedder, or springs that were loaded when it was made.
+    pub fn is_driven(&self) -> bool {
+        let motors = |joint: &GenericJoint| !joint.motor_axes.is_empty();
+        let forces = |rb: &RigidBody| rb.is_kinematic();
+        self.world.impulse_joints.iter().any(|(_, joint)| motors(&joint.data))
+            || self.world.bodies.iter().any(|(_, rb)| forces(rb))
+            || self
+                .loads
+                .iter()
+                .any(|(_, force, torque)| force.length() > 0.0 || torque.length() > 0.0)
+            || self.wearers.iter().any(|wearer| wearer.contact.in_contact())
     }
 
     /// State of a body of its world.

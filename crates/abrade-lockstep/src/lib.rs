@@ -25,6 +25,8 @@ mod island;
 mod pairs;
 mod parameters;
 mod rewind;
+#[cfg(feature = "state")]
+mod state;
 mod wearer;
 
 pub use convert::{from_vector, to_pose, to_vector};

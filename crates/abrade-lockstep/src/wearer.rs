@@ -23,7 +23,7 @@ pub struct Wearer {
     pub(crate) impulse: Vector3<f64>,
     pub(crate) contact_time: f64,
     /// By how much each surface is lowered for this body, which an engine left inside it [m].
-    lifts: Vec<f64>,
+    pub(crate) lifts: Vec<f64>,
     worn: Vec<f64>,
     /// Volumes displaced before a step [m3].
     mark: Vec<f64>,
@@ -47,11 +47,21 @@ impl Wearer {
     ) -> Result<Self, PhysicsError> {
         let mut contact = Carried::new(&body, surfaces.iter().map(|p| &*p.surface), settings)?;
         let lifts = contact.overlaps(&body, surfaces);
-        Ok(Self {
+        Ok(Self::of(handle, body, loads, contact, lifts))
+    }
+
+    /// A body that joins an island with the `contact` it has.
+    pub(crate) fn of(
+        handle: RigidBodyHandle,
+        body: Body,
+        loads: Loads,
+        contact: Carried,
+        lifts: Vec<f64>,
+    ) -> Self {
+        Self {
             handle,
             body,
             loads,
-            contact,
             calm: Calm::default(),
             grip: Grip::default(),
             impulse: Vector3::zeros(),
@@ -60,9 +70,10 @@ impl Wearer {
             mark: vec![0.0; lifts.len()],
             wears: false,
             lifts,
-            booked: Ledger::default(),
-            seen: 0,
-        })
+            booked: *contact.ledger(),
+            seen: contact.node_evaluations(),
+            contact,
+        }
     }
 
     /// The same body in another island, from where it is.

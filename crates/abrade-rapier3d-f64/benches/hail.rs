@@ -7,8 +7,7 @@
 use std::time::Instant;
 
 use abrade_rapier3d_f64::abrade::{
-    ElasticLaw, FlowLaw, HertzConvention, HexStrip, Lateral, Material, Removal, Surface,
-    SurfaceLaws,
+    ElasticLaw, HertzConvention, HexStrip, Material, Surface, SurfaceLaws,
 };
 use abrade_rapier3d_f64::rapier::math::Vector;
 use abrade_rapier3d_f64::rapier::prelude::*;
@@ -148,11 +147,7 @@ fn plate() -> Surface {
         friction: 0.5,
     };
     let convention = HertzConvention::ElasticPair;
-    let laws = SurfaceLaws {
-        material,
-        elastic: ElasticLaw::HertzNodes { node_radius: NODE_RADIUS, convention },
-        flow: FlowLaw::CapozzaHanley { lateral: Lateral::Projected },
-        removal: Removal::All,
-    };
+    let elastic = ElasticLaw::HertzNodes { node_radius: NODE_RADIUS, convention };
+    let laws = SurfaceLaws { elastic, ..SurfaceLaws::of(material) };
     Surface::hex_strip(HexStrip::with_nodes(EDGE, EDGE, NODES), laws).expect("a plate")
 }

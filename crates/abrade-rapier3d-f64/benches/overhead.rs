@@ -7,9 +7,7 @@
 
 use std::time::{Duration, Instant};
 
-use abrade_rapier3d_f64::abrade::{
-    ElasticLaw, FlowLaw, HexStrip, Material, Removal, Surface, SurfaceLaws,
-};
+use abrade_rapier3d_f64::abrade::{HexStrip, Material, Surface, SurfaceLaws};
 use abrade_rapier3d_f64::rapier::math::Vector;
 use abrade_rapier3d_f64::rapier::prelude::*;
 use abrade_rapier3d_f64::{WearSettings, WearWorld};
@@ -97,12 +95,7 @@ fn plate(world: &mut PhysicsWorld) -> WearWorld {
         poisson: 0.3,
         friction: 0.5,
     };
-    let laws = SurfaceLaws {
-        material,
-        elastic: ElasticLaw::Foundation { stiffness: None },
-        flow: FlowLaw::NormalPressure {},
-        removal: Removal::All,
-    };
+    let laws = SurfaceLaws::of(material);
     let strip = HexStrip::with_nodes(2.0, 2.0, 1e4);
     let surface = Surface::hex_strip(strip, laws).expect("a plate");
     let proxy = ColliderBuilder::cuboid(1.0, 1.0, 0.01).translation(Vector::Z * -0.01);

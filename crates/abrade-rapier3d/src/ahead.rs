@@ -92,6 +92,7 @@ impl WearWorld {
             obstacles: &self.obstacles,
             settings: &self.settings,
             dt: self.current.dt,
+            sight: self.current.sight,
         };
         all.par_iter_mut().with_max_len(BATCH).flatten().for_each(|tracked| {
             tracked.ahead = run(tracked, &scene).map(Box::new);

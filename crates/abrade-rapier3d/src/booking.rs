@@ -20,6 +20,7 @@ pub(crate) struct Booking {
 
 /// Totals of a contact.
 #[derive(Default)]
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Contact {
     /// Impulse on the body, in the world [N s].
     impulse: Vector3<f64>,
@@ -71,5 +72,13 @@ impl Contact {
         for (surface, volume) in surfaces {
             events.push(WearEvent::Ended { body, surface, impulse, volume, contact_time });
         }
+    }
+}
+
+#[cfg(feature = "serde-serialize")]
+impl Contact {
+    /// The surfaces worn since it began.
+    pub fn surfaces(&self) -> impl Iterator<Item = SurfaceId> {
+        self.surfaces.iter().map(|(id, _)| *id)
     }
 }

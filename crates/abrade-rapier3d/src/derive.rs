@@ -11,38 +11,6 @@ use crate::event::Refusal;
 use crate::obstacle::extent;
 use crate::scalar;
 
-/// What a collider looked like when its body was derived: two equal prints, one geometry.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Print {
-    collider: ColliderHandle,
-    pose: Pose,
-    solid: bool,
-    numbers: [f64; 3],
-    address: usize,
-}
-
-/// The prints of a body's colliders, in their order.
-pub(crate) fn prints<'a>(
-    body: &'a RigidBody,
-    colliders: &'a ColliderSet,
-) -> impl Iterator<Item = Print> + 'a {
-    solids(body, colliders, false).map(|(handle, collider)| {
-        let (numbers, address) = match collider.shape().as_typed_shape() {
-            TypedShape::Ball(ball) => ([scalar::wide(ball.radius), 0.0, 0.0], 0),
-            TypedShape::Cuboid(cuboid) => (scalar::vector(cuboid.half_extents).into(), 0),
-            TypedShape::ConvexPolyhedron(hull) => {
-                ([hull.points().len() as f64, 0.0, 0.0], hull.points().as_ptr().addr())
-            }
-            TypedShape::Compound(compound) => {
-                ([compound.shapes().len() as f64, 0.0, 0.0], compound.shapes().as_ptr().addr())
-            }
-            _ => ([0.0; 3], std::ptr::from_ref(collider.shape()).cast::<u8>().addr()),
-        };
-        let pose = collider.position_wrt_parent().copied().unwrap_or(Pose::IDENTITY);
-        Print { collider: handle, pose, solid: is_solid(collider), numbers, address }
-    })
-}
-
 /// Radius about the centre of mass that holds the body's solid colliders [m].
 pub(crate) fn radius(body: &RigidBody, colliders: &ColliderSet) -> f64 {
     let com = Isometry3::from(-scalar::vector(body.local_center_of_mass()));
@@ -100,7 +68,8 @@ pub(crate) fn inertia(body: &RigidBody) -> Result<Inertia, Refusal> {
     }
 }
 
-fn solids<'a>(
+/// The colliders of a body, in their order.
+pub(crate) fn solids<'a>(
     body: &'a RigidBody,
     colliders: &'a ColliderSet,
     solid_only: bool,
@@ -109,7 +78,8 @@ fn solids<'a>(
     all.filter(move |(_, collider)| !solid_only || is_solid(collider))
 }
 
-fn is_solid(collider: &Collider) -> bool {
+/// True for a collider that counts.
+pub(crate) fn is_solid(collider: &Collider) -> bool {
     collider.is_enabled() && !collider.is_sensor()
 }
 

@@ -12,6 +12,7 @@ use crate::track::Trace;
 use crate::world::WearWorld;
 
 /// A driven body and its course; the core's state is in the surface's frame.
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct DrivenBody {
     pub handle: RigidBodyHandle,
     surface: SurfaceId,

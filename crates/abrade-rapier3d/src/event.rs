@@ -72,6 +72,7 @@ pub enum WearEvent {
 
 /// Why the gate refused a body for a step.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub enum Refusal {
     /// It is held by a joint.
     #[error("the body is held by a joint")]
@@ -101,6 +102,9 @@ pub enum Refusal {
     /// The world asks for another resolver.
     #[error("the world asks for another resolver")]
     Asked,
+    /// A contact of its island was too stiff or too long for it.
+    #[error("a contact of the island was too stiff, or took too many steps")]
+    Stiff,
     /// It is a link of a multibody.
     #[error("a body of the island is a link of a multibody")]
     Multibody,
@@ -119,6 +123,24 @@ pub enum Refusal {
 }
 
 impl Refusal {
+    /// One word for it, to count by.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Jointed => "jointed",
+            Self::LockedAxes => "locked_axes",
+            Self::Obstructed { .. } => "obstructed",
+            Self::SurfaceMoves => "surface_moves",
+            Self::Shape { .. } => "shape",
+            Self::Massless => "massless",
+            Self::Inside => "inside",
+            Self::Resting => "resting",
+            Self::Asked => "asked",
+            Self::Stiff => "stiff",
+            Self::Multibody => "multibody",
+            Self::Crowd { .. } => "crowd",
+        }
+    }
+
     /// True when no resolver can wear anything with the body.
     pub(crate) fn is_final(&self) -> bool {
         matches!(self, Self::SurfaceMoves | Self::Shape { .. } | Self::Massless)

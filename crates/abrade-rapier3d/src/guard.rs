@@ -20,10 +20,13 @@ pub(crate) struct Grip {
 
 /// Which pairs are taken; fixed over a step.
 #[derive(Default)]
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Taken {
     /// Bodies resolved in this step, sorted.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
     bodies: Vec<(u32, u32)>,
     /// Bodies that Rapier keeps in hand, sorted.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
     held: Vec<((u32, u32), Grip)>,
     /// Proxies with the hooks that the embedder had set on them, sorted by handle.
     proxies: Vec<(ColliderHandle, ActiveHooks)>,
@@ -148,5 +151,23 @@ impl PhysicsHooks for WearGuard<'_> {
         if self.user_asked(ActiveHooks::MODIFY_SOLVER_CONTACTS, context.colliders, pair) {
             self.user.modify_solver_contacts(context);
         }
+    }
+}
+
+#[cfg(feature = "serde-serialize")]
+impl Taken {
+    /// True when its proxies are those of the surfaces, each once.
+    pub fn is_of(&self, surfaces: &[WornCollider]) -> bool {
+        let sorted =
+            self.proxies.is_sorted_by(|(a, _), (b, _)| a.into_raw_parts() < b.into_raw_parts());
+        let mut proxies = surfaces.iter().map(|worn| worn.proxy);
+        let known = proxies.all(|proxy| self.user_hooks(proxy).is_some());
+        let distinct = |(at, worn): (usize, &WornCollider)| {
+            surfaces[..at].iter().all(|before| before.proxy != worn.proxy)
+        };
+        sorted
+            && known
+            && self.proxies.len() == surfaces.len()
+            && surfaces.iter().enumerate().all(distinct)
     }
 }

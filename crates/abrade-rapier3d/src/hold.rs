@@ -51,12 +51,13 @@ impl WearWorld {
             obstacles: &self.obstacles,
             settings: &self.settings,
             dt: self.current.dt,
+            sight: self.current.sight,
         };
         let tracked = Tracked::find(&self.bodies, handle);
         let (Some(tracked), Some(rb)) = (tracked, world.bodies.get(handle)) else { return false };
         let Some(body) = tracked.body() else { return false };
         let course = Course::of(rb, tracked, &scalar::vector(world.gravity));
-        scene.strike(body, &course, &tracked.near).is_some_and(|speed| speed > limit)
+        scene.strike(body, &course, &tracked.near).is_some_and(|strike| strike.speed > limit)
     }
 
     /// True when something comes to meet the body, or what hangs together with it, faster than

@@ -17,6 +17,9 @@
 //! 6. engine: Rapier's own step, with the embedder's hooks chained behind ours;
 //! 7. settle: poses and end velocities are written, events raised.
 //!
+//! With the feature `serde-serialize` a [`WearWorld`] is saved beside Rapier's world, in the middle
+//! of contacts too, and goes on from the bytes to the bit.
+//!
 //! The `f32` and `f64` packages are one source; only [`scalar`] knows the difference.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
@@ -46,6 +49,7 @@ mod neighbours;
 mod observer;
 mod obstacle;
 mod path;
+mod print;
 mod quasi_static;
 mod query_collider;
 mod register;
@@ -56,6 +60,8 @@ pub mod scalar;
 mod settings;
 mod settle;
 mod shadow;
+#[cfg(feature = "serde-serialize")]
+mod snapshot;
 mod start;
 mod steer;
 mod step;

@@ -21,6 +21,7 @@ const LIMIT: u64 = 4000;
 const STILL: f64 = 1e-6;
 
 /// A body pressed against one surface.
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Pressing {
     pub surface: SurfaceId,
     pressed: Pressed,
@@ -107,5 +108,13 @@ impl Pressing {
     /// The energies so far.
     pub fn ledger(&self) -> &abrade::Ledger {
         self.pressed.ledger()
+    }
+}
+
+#[cfg(feature = "serde-serialize")]
+impl Pressing {
+    /// True when it is pressed against these surfaces by a load that can be.
+    pub fn is_sound<'a>(&self, surfaces: impl Iterator<Item = &'a abrade::Surface>) -> bool {
+        self.load.is_finite() && self.load >= 0.0 && self.pressed.is_made_for(surfaces)
     }
 }

@@ -47,16 +47,23 @@ impl WearWorld {
     ) {
         let tracked = Tracked::slot(&mut self.bodies, handle);
         let Some(&surface) = tracked.near.first() else { return };
-        let exact = tracked.shadow.is_some();
-        let Err(left) = self.carry(handle, world, until, observer) else { return };
+        let is_placed = tracked.is_placed && tracked.shadow.is_some();
+        let carried = self.carry(handle, world, until, observer);
         let tracked = Tracked::slot(&mut self.bodies, handle);
+        tracked.is_placed = false;
+        let Err(left) = carried else { return };
         self.closed += tracked.end(&mut self.events);
         match left {
-            // Rapier's contacts overlap: only a state that was given exactly is an error.
+            // Rapier's contacts overlap: only a state that the embedder gave exactly is an error.
             Left::Failed(PhysicsError::StartsInside { .. } | PhysicsError::StepVanished { .. })
-                if !exact =>
+                if !is_placed =>
             {
                 self.leave(handle, surface, Refusal::Inside, world);
+            }
+            Left::Failed(PhysicsError::TooManySteps { .. })
+                if self.settings.resolve == Resolve::Auto =>
+            {
+                self.leave(handle, surface, Refusal::Stiff, world);
             }
             Left::Refused(reason) => self.leave(handle, surface, reason, world),
             Left::Failed(error) => self.fail(handle, surface, error),
@@ -121,6 +128,7 @@ impl WearWorld {
             obstacles: &self.obstacles,
             settings: &self.settings,
             dt,
+            sight: self.current.sight,
         };
         let Some(start) = scene.start(tracked)? else { return Ok(()) };
         // An encounter goes on in the frame it began in.

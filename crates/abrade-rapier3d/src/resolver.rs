@@ -2,6 +2,7 @@
 
 /// Which resolvers a world may use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub enum Resolve {
     /// Per body and step, the cheapest that is right: Micro for a body that nothing but wear
     /// surfaces touches, Lockstep for a blow that joints or other bodies have a part in,
@@ -18,6 +19,7 @@ pub enum Resolve {
 
 /// A way to resolve a contact over a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub enum Resolver {
     /// The core's integrator carries the body through the step on its own.
     Micro,
@@ -26,4 +28,15 @@ pub enum Resolver {
     QuasiStatic,
     /// The body and all that it touches or is jointed to are stepped finely in a private world.
     Lockstep,
+}
+
+impl Resolver {
+    /// Its name, to count by.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Micro => "micro",
+            Self::QuasiStatic => "quasi_static",
+            Self::Lockstep => "lockstep",
+        }
+    }
 }

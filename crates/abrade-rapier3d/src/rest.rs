@@ -4,7 +4,7 @@ use abrade::Body;
 use nalgebra::Isometry3;
 use rapier::dynamics::RigidBody;
 
-use crate::approach::strike_speed;
+use crate::approach::{Strike, strike_speed};
 use crate::gate::Course;
 use crate::quasi_static::holds;
 use crate::scalar;
@@ -14,6 +14,8 @@ use crate::tracked::Tracked;
 
 /// Share of the rest speed below which a body does not move along.
 const CREEP: f64 = 0.05;
+/// Share of its radius by which a body at rest may be above its surface.
+const CLOSE: f64 = 0.02;
 
 impl Scene<'_> {
     /// True for a body that comes down on its surfaces no faster than what pulls it there makes it
@@ -29,7 +31,9 @@ impl Scene<'_> {
         let pull = tracked.near.iter().filter_map(pull).fold(0.0, f64::max);
         let rest_speed = pull * self.dt;
         let Some(body) = tracked.body() else { return false };
-        if self.strike(body, &course, &tracked.near).is_none_or(|speed| speed >= rest_speed) {
+        let close = CLOSE * tracked.radius;
+        let strike = self.strike(body, &course, &tracked.near);
+        if strike.is_none_or(|strike| strike.speed >= rest_speed || strike.gap > close) {
             return false;
         }
         // What moves along and ploughs is braked by it, which Rapier's contact would not do.
@@ -42,15 +46,15 @@ impl Scene<'_> {
         speed < CREEP * rest_speed || tracked.near.iter().all(firm)
     }
 
-    /// Speed with which a body comes down on a surface in this step, if it does [m/s].
-    pub fn strike(&self, body: &Body, course: &Course, surfaces: &[SurfaceId]) -> Option<f64> {
+    /// How a body comes down on its surfaces in this step, if it does.
+    pub fn strike(&self, body: &Body, course: &Course, surfaces: &[SurfaceId]) -> Option<Strike> {
         let on = |id: &SurfaceId| {
             let frame = self.frame(*id)?;
             let pull = -frame.inverse_transform_vector(&course.acceleration).z;
             let level = self.surfaces[id.0].bounds.high.z;
-            strike_speed(body, &course.state, &frame, level, pull.max(0.0), self.dt)
+            strike_speed(body, &course.state, &frame, level, pull.max(0.0), self.sight)
         };
-        surfaces.iter().filter_map(on).reduce(f64::max)
+        surfaces.iter().filter_map(on).reduce(Strike::and)
     }
 
     fn frame(&self, id: SurfaceId) -> Option<Isometry3<f64>> {

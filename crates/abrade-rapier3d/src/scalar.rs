@@ -18,6 +18,11 @@ pub fn narrow(x: f64) -> Real {
     x as Real
 }
 
+/// True for a number that Rapier can hold with its square.
+pub fn holds(x: f64) -> bool {
+    x.abs() < wide(Real::MAX).sqrt()
+}
+
 /// A vector of Rapier's.
 pub fn vector(v: Vector) -> Vector3<f64> {
     Vector3::new(wide(v.x), wide(v.y), wide(v.z))

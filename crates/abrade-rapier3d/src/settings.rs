@@ -5,8 +5,12 @@ use rapier::dynamics::RigidBodyHandle;
 
 use crate::resolver::Resolve;
 
+/// Contact steps of a body in a step of the embedder after which Auto hands it on: about a second.
+const AUTO_STEPS: u64 = 1_000_000;
+
 /// Settings of a [`WearWorld`](crate::WearWorld).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub struct WearSettings {
     /// Target relative time error of the wear volume [-].
     pub accuracy: f64,
@@ -37,13 +41,17 @@ impl WearSettings {
         EncounterSettings {
             accuracy: self.accuracy,
             ledger: self.ledger,
-            step_limit: self.step_limit,
+            step_limit: match self.resolve {
+                Resolve::Auto => self.step_limit.min(AUTO_STEPS),
+                _ => self.step_limit,
+            },
         }
     }
 }
 
 /// What was done since the world was made.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub struct Counters {
     /// Bodies looked at closely, step by step: those that could come near a wear surface, and
     /// those that were new or changed.
@@ -77,4 +85,14 @@ pub struct StepReport {
     pub dt: f64,
     /// The body that left the surfaces and ended the step.
     pub exited: Option<RigidBodyHandle>,
+}
+
+#[cfg(feature = "serde-serialize")]
+impl Counters {
+    /// True when none of them can overflow.
+    pub(crate) fn are_sound(&self) -> bool {
+        let Self { looked, micro, quasi_static, lockstep, refused, steps, node_evaluations } = self;
+        let all = [looked, micro, quasi_static, lockstep, refused, steps, node_evaluations];
+        all.into_iter().all(|count| *count < u64::MAX / 2)
+    }
 }

@@ -21,6 +21,10 @@ const GROWTH: f64 = 1.5;
 
 /// Share of Rapier's geometric slop by which a body may lie in a surface.
 const SLACK: f64 = 0.1;
+/// Weights above which a load is more than Rapier's contact stands, and the share of its radius
+/// that a lighter body may sink.
+const HEAVY: f64 = 3.0;
+const SUNK: f64 = 0.1;
 
 impl WearWorld {
     /// Resolves every body that Rapier kept in hand.
@@ -95,7 +99,6 @@ impl WearWorld {
         match result {
             Ok((bodies, (shares, done))) => {
                 self.counters.steps += done.steps;
-                self.counters.node_evaluations += done.node_evaluations;
                 for share in shares {
                     let reason = held.iter().find(|h| h.body == share.body).map(|h| h.reason);
                     self.book_share(share, reason);
@@ -106,6 +109,11 @@ impl WearWorld {
                 self.events.push(WearEvent::NoIsland { body: first.body, reason });
                 Vec::new()
             }
+            Err(Lost::Failed(body, error)) if self.can_go_on(&error) => {
+                let reason = Refusal::Stiff;
+                self.events.push(WearEvent::NoIsland { body, reason });
+                Vec::new()
+            }
             Err(Lost::Failed(body, error)) => {
                 let surface = first.surfaces[0];
                 self.fail(body, surface, error);
@@ -114,9 +122,23 @@ impl WearWorld {
         }
     }
 
+    /// True for an error of an island that another resolver need not share.
+    fn can_go_on(&self, error: &PhysicsError) -> bool {
+        let stiff = matches!(
+            error,
+            PhysicsError::StepVanished { .. }
+                | PhysicsError::TooManySteps { .. }
+                | PhysicsError::StartsInside { .. }
+        );
+        stiff && self.settings.resolve == Resolve::Auto
+    }
+
     fn book_share(&mut self, share: Share, reason: Option<Refusal>) {
         let Share { body, impulse, contact_time, touches, worn } = share;
         self.counters.lockstep += 1;
+        if let Some(reason) = reason {
+            *self.reasons.entry((Resolver::Lockstep, reason.name().into())).or_default() += 1;
+        }
         let tracked = Tracked::slot(&mut self.bodies, body);
         tracked.let_go(&mut self.surfaces, &mut self.closed);
         tracked.hand_to(Resolver::Lockstep, reason, &mut self.events);
@@ -127,6 +149,7 @@ impl WearWorld {
     /// QuasiStatic: presses the nodes under the body by what it bore.
     fn press(&mut self, held: &Held, world: &mut WorldView<'_>, observer: &mut dyn WearObserver) {
         self.counters.quasi_static += 1;
+        *self.reasons.entry((Resolver::QuasiStatic, held.reason.name().into())).or_default() += 1;
         let tracked = Tracked::slot(&mut self.bodies, held.body);
         tracked.hand_to(Resolver::QuasiStatic, Some(held.reason), &mut self.events);
         tracked.wearer = None;
@@ -142,15 +165,30 @@ impl WearWorld {
 
     /// Lifts a body to the surface where Rapier let it sink.
     fn keep_afloat(&mut self, held: &Held, world: &mut WorldView<'_>) {
-        let slack = SLACK * scalar::wide(world.parameters.allowed_linear_error());
+        let Some(rb) = world.bodies.get(held.body) else { return };
+        let tracked = Tracked::slot(&mut self.bodies, held.body);
+        let load: f64 = tracked.borne.iter().map(|(_, load)| load).sum();
+        let weight = scalar::wide(rb.mass()) * held.rest_speed / self.current.dt;
+        // What a body's own weight makes it sink is Rapier's affair: a lift would keep it awake.
+        let slack = match load > HEAVY * weight {
+            true => SLACK * scalar::wide(world.parameters.allowed_linear_error()),
+            false => SUNK * tracked.radius,
+        };
         for id in &held.surfaces {
             let tracked = Tracked::slot(&mut self.bodies, held.body);
             let lie = self.lies.iter().find(|lie| lie.id == *id);
-            let (Some(rb), Some(lie)) = (world.bodies.get_mut(held.body), lie) else { continue };
+            // Asking for it mutably would keep the body awake.
+            let (Some(rb), Some(lie)) = (world.bodies.get(held.body), lie) else { continue };
             let Some(body) = tracked.body() else { continue };
             let mut state = shadow::read(rb, tracked.shadow.as_ref(), &lie.pose);
             let depth = afloat::depth(body, &state, &self.surfaces[id.0]);
-            if depth > slack && depth < body.shape.bounding_radius() {
+            let before =
+                self.before.of(held.body).map_or(0.0, |b| b.seen_from(&lie.pose).position.z);
+            let sunk = (before - state.position.z).max(0.0) + body.shape.bounding_radius();
+            if depth > slack
+                && depth < sunk
+                && let Some(rb) = world.bodies.get_mut(held.body)
+            {
                 state.position.z += depth;
                 tracked.shadow = Some(shadow::write(rb, lie.pose, state));
                 steer::carry_colliders(rb, world.colliders);

@@ -9,9 +9,12 @@ use rapier::dynamics::RigidBody;
 use rapier::math::{Pose, Vector};
 
 use crate::scalar;
+#[cfg(feature = "serde-serialize")]
+use crate::snapshot::is_state;
 
 /// An exact state and the rounded one it belongs to.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Shadow {
     /// Frame that `state` is given in.
     pub frame: Isometry3<f64>,
@@ -81,4 +84,14 @@ pub(crate) fn write(body: &mut RigidBody, frame: Isometry3<f64>, state: State) -
     body.set_linvel(scalar::to_vector(&world.velocity), false);
     body.set_angvel(scalar::to_vector(&world.spin), false);
     Shadow::of(body, frame, state)
+}
+
+#[cfg(feature = "serde-serialize")]
+impl Shadow {
+    /// True when it is a state that Rapier's numbers can say.
+    pub fn is_sound(&self) -> bool {
+        let seen = [scalar::vector(self.linvel), scalar::vector(self.angvel)];
+        let seen = seen.iter().flat_map(|part| part.iter()).all(|x| scalar::holds(*x));
+        seen && is_state(&self.state, &self.frame)
+    }
 }

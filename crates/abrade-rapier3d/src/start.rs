@@ -30,6 +30,8 @@ pub(crate) struct Scene<'a> {
     pub settings: &'a WearSettings,
     /// Length of the step [s].
     pub dt: f64,
+    /// Time within which a contact that is to come matters [s].
+    pub sight: f64,
 }
 
 /// A body at the beginning of a step.
@@ -80,7 +82,7 @@ impl Scene<'_> {
         let course = Course::of(rb, tracked, &scalar::vector(self.world.gravity));
         let mut state = shadow::read(rb, tracked.shadow.as_ref(), &frame);
         let Known::Ready(known) = &mut tracked.known else { return Ok(None) };
-        if is_new && tracked.shadow.is_none() {
+        if is_new && !tracked.is_placed {
             // Rapier's contacts let bodies sink in.
             let depth = afloat::depth(known, &state, &self.surfaces[anchor.0]);
             state.position.z += if depth < LIFT * tracked.radius { depth } else { 0.0 };

@@ -2,7 +2,7 @@
 
 use abrade::Until;
 use nalgebra::{Isometry3, Vector3};
-use rapier::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
+use rapier::dynamics::{IntegrationParameters, RigidBody, RigidBodyHandle, RigidBodySet};
 use rapier::geometry::ColliderSet;
 use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
 
@@ -69,7 +69,7 @@ impl WearWorld {
         hooks: &'a dyn PhysicsHooks,
         observer: &mut dyn WearObserver,
     ) -> WearGuard<'a> {
-        self.open(scalar::wide(world.parameters.dt));
+        self.open(world.parameters);
         let gravity = scalar::vector(world.gravity);
         if !self.surfaces.is_empty() && self.current.dt > 0.0 {
             self.choose(&mut world, &gravity);
@@ -154,8 +154,11 @@ impl WearWorld {
         }
     }
 
-    fn open(&mut self, dt: f64) {
-        self.current = Current { dt, ..Current::default() };
+    fn open(&mut self, parameters: &IntegrationParameters) {
+        let dt = scalar::wide(parameters.dt);
+        // Rapier brakes a body that its next substep would bring into contact.
+        let sight = dt * (1.0 + 1.0 / parameters.num_solver_iterations.max(1) as f64);
+        self.current = Current { dt, sight, ..Current::default() };
         self.events.clear();
         self.integrated.clear();
         self.steered.clear();
@@ -195,7 +198,7 @@ impl WearWorld {
     fn choose(&mut self, world: &mut WorldView<'_>, gravity: &Vector3<f64>) {
         gate::lie(&self.surfaces, world.colliders, &mut self.lies);
         let mut picked = std::mem::take(&mut self.picked);
-        let span = Span { dt: self.current.dt, gravity: gravity.norm() };
+        let span = Span { dt: self.current.sight, gravity: gravity.norm() };
         self.glances.pick(world.bodies, world.colliders, &self.lies, span, &mut picked);
         for &handle in &picked {
             let Some(rb) = world.bodies.get(handle).filter(|rb| gate::takes_part(rb)) else {
@@ -228,7 +231,7 @@ impl WearWorld {
         let tracked = Tracked::slot(&mut self.bodies, handle);
         let lost = tracked.drop_lost_shadow(rb);
         let course = Course::of(rb, tracked, gravity);
-        course.near(&self.lies, surfaces, dt, &mut tracked.near);
+        course.near(&self.lies, surfaces, self.current.sight, &mut tracked.near);
         tracked.near.retain(|id| gate::feels(rb, &surfaces[id.0], colliders));
         if lost || tracked.near.is_empty() {
             self.closed += tracked.end(&mut self.events);

@@ -15,6 +15,7 @@ use crate::scalar;
 
 /// Names a wear surface of a [`WearWorld`](crate::WearWorld).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub struct SurfaceId(pub(crate) usize);
 
 impl fmt::Display for SurfaceId {
@@ -29,9 +30,9 @@ pub(crate) struct WornCollider {
     pub surface: Arc<Surface>,
     pub proxy: ColliderHandle,
     /// The surface's frame in the proxy's.
-    offset: Isometry3<f64>,
+    pub offset: Isometry3<f64>,
     /// The exact frame in the world, for as long as the proxy has this pose.
-    exact: Option<(Pose, Isometry3<f64>)>,
+    pub exact: Option<(Pose, Isometry3<f64>)>,
     /// Box around the undeformed nodes, in the surface's frame.
     pub bounds: Extent,
     /// What the elastic law inflates bodies by [m].

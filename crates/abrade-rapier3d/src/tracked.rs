@@ -9,9 +9,10 @@ use rapier::math::Vector;
 
 use crate::ahead::Ahead;
 use crate::booking::{Booking, Contact};
-use crate::derive::{self, Print};
+use crate::derive;
 use crate::event::{Refusal, WearEvent};
 use crate::gate::Lie;
+use crate::print::{self, Print};
 use crate::quasi_static::Pressing;
 use crate::resolver::Resolver;
 use crate::shadow::{self, Shadow};
@@ -22,11 +23,14 @@ use crate::track::Track;
 const BLOW: f64 = 20.0;
 
 /// A rigid body and the core's view of it.
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Tracked {
     pub handle: RigidBodyHandle,
     /// Registered by the embedder: shape and inertia are the embedder's, whatever the colliders.
     pub registered: bool,
     pub known: Known,
+    /// It was placed by the embedder and not resolved since: where it starts is no engine's doing.
+    pub is_placed: bool,
     /// Radius that holds the body about its centre of mass [m].
     pub radius: f64,
     pub shadow: Option<Shadow>,
@@ -44,16 +48,20 @@ pub(crate) struct Tracked {
     /// How it was last resolved.
     resolver: Option<Resolver>,
     /// Surfaces that it comes near in the step under way.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
     pub near: Vec<SurfaceId>,
     /// Its course to the first of them, in the world.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
     pub course: Option<Box<Track>>,
     /// What it does in the step under way if it is alone.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
     pub ahead: Option<Box<Ahead>>,
     prints: Vec<Print>,
     com: Option<Vector>,
 }
 
 /// The core's body, as far as it was needed.
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Known {
     /// Not asked for yet.
     Unseen,
@@ -64,6 +72,7 @@ pub(crate) enum Known {
 }
 
 /// A running encounter.
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Live {
     pub encounter: Encounter,
     /// The surfaces it was made with, in order.
@@ -75,6 +84,7 @@ impl Tracked {
         Self {
             handle,
             registered: false,
+            is_placed: false,
             known: Known::Unseen,
             radius: 0.0,
             shadow: None,
@@ -109,22 +119,24 @@ impl Tracked {
     /// Takes the embedder's shape, inertia and lock in place of the colliders'.
     pub fn register(&mut self, body: Body) {
         self.registered = true;
+        self.is_placed = true;
         self.radius = body.shape.bounding_radius();
         self.known = Known::Ready(Box::new(body));
     }
 
     /// True when colliders or the centre of mass have changed since the body was derived.
-    pub fn is_stale(&self, rb: &RigidBody, colliders: &ColliderSet) -> bool {
-        let same = self.com == Some(rb.local_center_of_mass())
-            && derive::prints(rb, colliders).eq(self.prints.iter().copied());
-        !(self.registered || same)
+    pub fn is_stale(&mut self, rb: &RigidBody, colliders: &ColliderSet) -> bool {
+        if self.registered {
+            return false;
+        }
+        let still = self.com == Some(rb.local_center_of_mass());
+        !(still && print::hold(&mut self.prints, rb, colliders))
     }
 
     /// Forgets what was derived.
     pub fn refresh(&mut self, rb: &RigidBody, colliders: &ColliderSet) {
         self.com = Some(rb.local_center_of_mass());
-        self.prints.clear();
-        self.prints.extend(derive::prints(rb, colliders));
+        print::take(&mut self.prints, rb, colliders);
         self.radius = derive::radius(rb, colliders);
         self.known = Known::Unseen;
         self.shadow = None;

@@ -1,6 +1,8 @@
 //! What stands beside a physics world: wear surfaces, what is known of the bodies that wear them,
 //! and what an embedder reads from both.
 
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::ops::Index;
 
 use abrade::{Ledger, State, Surface};
@@ -19,6 +21,7 @@ use crate::held::{Before, Held};
 use crate::neighbours::Neighbours;
 use crate::obstacle::Obstacles;
 use crate::path::Extent;
+use crate::resolver::Resolver;
 use crate::settings::{Counters, WearSettings};
 use crate::shadow;
 use crate::steer::Steered;
@@ -26,6 +29,11 @@ use crate::surface::{SurfaceId, WornCollider};
 use crate::tracked::Tracked;
 
 /// Wear surfaces and the bodies that wear them, beside a physics world of Rapier's.
+///
+/// With the feature `serde-serialize`, which turns on Rapier's of the same name, it is written and
+/// read by any binary format of serde between two steps, in the middle of contacts too: a run that
+/// goes on from Rapier's world and this one gives the same bits. The events of the last step are
+/// not kept.
 #[derive(Default)]
 pub struct WearWorld {
     pub(crate) settings: WearSettings,
@@ -54,11 +62,16 @@ pub struct WearWorld {
     pub(crate) driven: Vec<DrivenBody>,
     pub(crate) events: Vec<WearEvent>,
     pub(crate) counters: Counters,
+    /// Body steps that Micro did not resolve, by who did and why it was not Micro.
+    pub(crate) reasons: Reasons,
     /// Energies of encounters that have ended.
     pub(crate) closed: Ledger,
     /// The step under way.
     pub(crate) current: Current,
 }
+
+/// Body steps by resolver and [`Refusal::name`](crate::Refusal::name).
+pub(crate) type Reasons = BTreeMap<(Resolver, Cow<'static, str>), u64>;
 
 /// Where the integration of a body ended, given in `frame`.
 pub(crate) struct Integrated {
@@ -71,6 +84,8 @@ pub(crate) struct Integrated {
 #[derive(Default)]
 pub(crate) struct Current {
     pub dt: f64,
+    /// Time within which a contact that is to come matters: the step and another substep [s].
+    pub sight: f64,
     pub exited: Option<RigidBodyHandle>,
     pub failure: Option<WearError>,
     /// Box around wherever bodies near a surface may get.
@@ -156,6 +171,12 @@ impl WearWorld {
         }
         self.driven.iter().for_each(|driven| sum += *driven.ledger());
         sum
+    }
+
+    /// Body steps that Micro did not resolve since the world was made: by whom, why not by Micro
+    /// ([`Refusal::name`](crate::Refusal::name)), and how many.
+    pub fn reasons(&self) -> impl Iterator<Item = (Resolver, &str, u64)> {
+        self.reasons.iter().map(|((by, why), count)| (*by, &**why, *count))
     }
 
     /// What was done since the world was made.

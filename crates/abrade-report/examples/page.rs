@@ -45,6 +45,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         complete: true,
         precision: "f64".into(),
         resolver: ResolverCounts { micro: 1, ..Default::default() },
+        resolver_reasons: Default::default(),
         wall: 0.0123,
         simulated: 1.2e-5,
         steps: 312,

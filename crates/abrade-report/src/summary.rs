@@ -23,6 +23,9 @@ pub struct Summary {
     pub precision: String,
     /// Steps of bodies near a surface, by the resolver that took them.
     pub resolver: ResolverCounts,
+    /// Of the steps that `micro` did not take, how many for which reason: "resolver: reason".
+    #[serde(default)]
+    pub resolver_reasons: BTreeMap<String, u64>,
     /// Wall time [s].
     #[serde(rename = "wall_s")]
     pub wall: f64,
@@ -52,9 +55,9 @@ pub struct Summary {
 pub struct ResolverCounts {
     /// Integrated in f64 between the engine's steps.
     pub micro: u64,
-    /// From the engine's impulses.
+    /// By the load that the engine's contact bore.
     pub quasi_static: u64,
-    /// One substep per step of the engine.
+    /// With all that the body touches, in tiny steps of the engine.
     pub lockstep: u64,
 }
 

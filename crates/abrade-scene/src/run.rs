@@ -179,6 +179,7 @@ fn engine(
             let wishes = $precision::world::Wishes {
                 gravity: scene.gravity,
                 accuracy: scene.run.accuracy,
+                resolve: scene.run.resolve,
                 ledger,
                 until,
                 drives: &drives,

@@ -16,6 +16,8 @@ use crate::encounter::{EncounterSettings, Loads, Placed};
 use crate::error::PhysicsError;
 use crate::integrate::{GROWTH, Integrator, engulfed, rejected};
 use crate::ledger::Ledger;
+#[cfg(feature = "state")]
+use crate::state::{Fault, finite, not_negative, require};
 use crate::surface::Surface;
 use crate::trial::{Course, Trial};
 
@@ -25,8 +27,11 @@ const COLUMNS: f64 = 0.3;
 
 /// Contact of a body that something else moves.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "state", serde(remote = "Self"))]
 pub struct Carried {
     integrator: Integrator,
+    #[cfg_attr(feature = "state", serde(skip))]
     pending: Option<Pending>,
     /// Impulse of the last step's dashpots [N s] and its torque [N m s], which the next step gets.
     owed: [Vector3<f64>; 2],
@@ -231,5 +236,21 @@ impl Carried {
     /// the contact is `external_work`.
     pub fn ledger(&self) -> &Ledger {
         self.integrator.ledger()
+    }
+}
+
+#[cfg(feature = "state")]
+impl Carried {
+    /// True when these are surfaces of the sizes that it was made with; others end in a panic.
+    pub fn is_made_for<'a>(&self, surfaces: impl IntoIterator<Item = &'a Surface>) -> bool {
+        self.integrator.is_made_for(surfaces)
+    }
+
+    pub(crate) fn checked(self) -> Result<Self, Fault> {
+        let times = not_negative(self.last) && not_negative(self.period_over_tau);
+        let owed = self.owed.iter().all(|part| finite(part.iter()));
+        let counted = self.evaluations < u64::MAX / 2;
+        require(times && owed && counted, "a carried body is out of range")?;
+        Ok(self)
     }
 }

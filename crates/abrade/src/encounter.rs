@@ -53,6 +53,7 @@ pub struct Loads {
 
 /// When [`Encounter::advance`] may return before its duration is over.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub enum Until {
     /// Never.
     #[default]

@@ -458,6 +458,12 @@ impl Integrator {
         Ok(self)
     }
 
+    /// True when these are surfaces of the sizes that it was made with.
+    pub(crate) fn is_made_for<'a>(&self, surfaces: impl IntoIterator<Item = &'a Surface>) -> bool {
+        let counts = surfaces.into_iter().map(|surface| surface.nodes().len());
+        counts.eq(self.node_counts.iter().copied())
+    }
+
     /// Number of surfaces.
     pub(crate) fn count(&self) -> usize {
         self.contacts.len()

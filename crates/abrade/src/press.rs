@@ -87,6 +87,7 @@ impl Integrator {
 
 /// A body that is held against surfaces.
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pressed {
     integrator: Integrator,
 }
@@ -196,5 +197,13 @@ impl Pressed {
     /// The energies; zeros unless asked for.
     pub fn ledger(&self) -> &Ledger {
         self.integrator.ledger()
+    }
+}
+
+#[cfg(feature = "state")]
+impl Pressed {
+    /// True when these are surfaces of the sizes that it was made with; others end in a panic.
+    pub fn is_made_for<'a>(&self, surfaces: impl IntoIterator<Item = &'a Surface>) -> bool {
+        self.integrator.is_made_for(surfaces)
     }
 }

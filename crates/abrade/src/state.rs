@@ -9,6 +9,7 @@ use serde::de::{Deserialize, Deserializer, Error};
 use serde::ser::{Serialize, Serializer};
 
 use crate::body::{Inertia, State};
+use crate::carried::Carried;
 use crate::columns::Columns;
 use crate::drive::Driven;
 use crate::hull::Hull;
@@ -58,4 +59,4 @@ macro_rules! checked {
     };
 }
 
-checked!(Columns, Driven, Hull, Inertia, Integrator, Patch, State);
+checked!(Carried, Columns, Driven, Hull, Inertia, Integrator, Patch, State);

@@ -380,6 +380,7 @@ struct SurfaceState {
     area: f64,
     laws: SurfaceLaws,
     worn: Worn,
+    gain: Worn,
     depth: Vec<f64>,
 }
 
@@ -392,6 +393,7 @@ impl From<Surface> for SurfaceState {
             area: surface.nodes.rest_area[0],
             laws: surface.laws,
             worn: surface.worn,
+            gain: surface.gain,
             depth: surface.nodes.depth,
         }
     }
@@ -402,18 +404,18 @@ impl TryFrom<SurfaceState> for Surface {
     type Error = Fault;
 
     fn try_from(state: SurfaceState) -> Result<Self, Fault> {
-        let SurfaceState { columns_rows, pitch, area, laws, worn, depth } = state;
+        let SurfaceState { columns_rows, pitch, area, laws, worn, gain, depth } = state;
         let [columns, rows] = columns_rows;
         let count = columns.checked_mul(rows);
         require(count == Some(depth.len()) && count != Some(0), "a surface lacks nodes")?;
         let extent = pitch * columns.max(rows) as f64;
         let fine = positive(pitch) && positive(area) && extent.is_finite();
         require(fine && laws.check().is_empty(), "a surface or its laws are out of range")?;
-        let worn_fine = finite(&[worn.normal, worn.lateral, worn.chip, worn.removed]);
-        let fine = worn_fine && depth.iter().all(|&depth| not_negative(depth));
+        let whole = |w: &Worn| finite(&[w.normal, w.lateral, w.chip, w.removed]);
+        let fine = whole(&worn) && whole(&gain) && depth.iter().all(|&depth| not_negative(depth));
         require(fine, "a depth is below zero or not finite")?;
         let mut surface = Self::lattice(columns_rows, pitch, area, laws);
-        surface.worn = worn;
+        (surface.worn, surface.gain) = (worn, gain);
         surface.nodes.depth = depth;
         Ok(surface)
     }

@@ -160,7 +160,7 @@ impl Integrator {
         let reach = (velocity.norm() + spin.norm() * body.shape.bounding_radius()) * dt;
         for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
             let end = state.seen_from(&placed.pose);
-            contact.cover(placed.surface, &body.shape, &end, reach);
+            contact.cover(placed.surface, &body.shape, &end, reach.min(placed.surface.pitch()));
             let motion = Motion {
                 velocity: placed.pose.inverse_transform_vector(&velocity),
                 spin: placed.pose.inverse_transform_vector(&spin),

@@ -140,6 +140,7 @@ fn goes_on<E: Carrier>(name: &str, mut run: Run<E>, times: [f64; 2]) {
     assert!(direct.steps > 5 && run.surface.wear_volume() > 0.0, "{name}");
     assert_eq!(direct, resumed, "{name}");
     assert!(run.bytes() == read.bytes(), "{name}");
+    assert_eq!(run.surface.worn(), read.surface.worn(), "{name}");
 }
 
 /// Fails for a state that is left out, or read in another order.

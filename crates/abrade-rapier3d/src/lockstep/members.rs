@@ -8,8 +8,9 @@ use crate::event::Refusal;
 use crate::neighbours::Neighbours;
 use crate::view::WorldView;
 
-/// Most bodies of an island: a step of it costs about 2 us and 1 us a body.
-const LIMIT: usize = 64;
+/// Most bodies of an island: a step of it costs about 2 us and 1 us a body, and a pile that falls
+/// together would be stepped finely all the time.
+const LIMIT: usize = 12;
 
 /// The bodies and the standing colliders of an island.
 pub(crate) struct Members {

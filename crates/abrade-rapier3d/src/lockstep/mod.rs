@@ -10,7 +10,7 @@ mod widen;
 
 use std::collections::BTreeMap;
 
-use abrade::{Body, PhysicsError};
+use abrade::{Body, PhysicsError, Surface};
 use abrade_lockstep::rapier as fine;
 use abrade_lockstep::{Done, Island, IslandSettings, Wearer};
 use nalgebra::{Isometry3, Vector3};
@@ -22,12 +22,19 @@ use crate::held::Held;
 use crate::lockstep::copy::copy;
 use crate::lockstep::members::Members;
 pub(crate) use crate::lockstep::members::gather;
-use crate::micro::place;
+use crate::micro::placed;
+use crate::resolver::Resolve;
 use crate::surface::SurfaceId;
 use crate::tracked::Tracked;
 use crate::view::WorldView;
 use crate::world::WearWorld;
 use crate::{gate, scalar, shadow, steer};
+
+/// Steps of an island in a step of the embedder, times its bodies, after which it is put to rest:
+/// a fraction of a second.
+const BUDGET: u64 = 24_000;
+/// Share of its kinetic energy that an island may gain before it is taken for wrong.
+const GAIN: f64 = 0.02;
 
 /// Why an island was not resolved.
 pub(crate) enum Lost {
@@ -79,7 +86,10 @@ impl WearWorld {
         let lies = &self.lies;
         let pose = |id: &SurfaceId| lies.iter().find(|lie| lie.id == *id).map(|lie| lie.pose);
         let poses: Vec<_> = ids.iter().filter_map(pose).collect();
-        let mut placed = place(&mut self.surfaces, &ids, &poses);
+        // Worn by way of leaves: nothing is, if the island comes to nothing.
+        let leaf = |id: &SurfaceId| Surface::leaf(&self.surfaces[id.0].surface);
+        let mut leaves: Vec<Surface> = ids.iter().map(leaf).collect();
+        let mut placed = placed(leaves.iter_mut(), &poses);
         let mut wearers = Vec::new();
         for held in &held {
             let tracked = Tracked::slot(&mut self.bodies, held.body);
@@ -104,12 +114,26 @@ impl WearWorld {
         let proxies = proxies.iter().filter_map(inner).collect();
         let rest_load = held.iter().map(|h| h.bore).sum();
         let step_limit = self.settings.step_limit;
-        let settings = IslandSettings { step_limit, rest_speed, rest_load };
+        let budget = match self.settings.resolve {
+            Resolve::Lockstep => u64::MAX,
+            _ => BUDGET / members.bodies.len().max(1) as u64,
+        };
+        let settings = IslandSettings { step_limit, budget, rest_speed, rest_load };
         let mut island = Island::new(copy.world, wearers, proxies, settings);
         let dt = self.current.dt;
+        let may_gain = self.settings.resolve == Resolve::Lockstep || island.is_driven();
+        let [kinetic, before] = island.energies();
         let done = island
             .advance(&mut placed, dt, &mut |_, _, _| ())
             .map_err(|error| Lost::Failed(held[0].body, error))?;
+        if !may_gain && island.energies()[1] - before > GAIN * kinetic {
+            return Err(Refusal::Stiff.into());
+        }
+        let changes: Vec<_> = leaves.into_iter().map(Surface::into_changes).collect();
+        for (id, changes) in ids.iter().zip(&changes) {
+            self.surfaces[id.0].owned().apply(changes);
+        }
+        self.counters.node_evaluations += island.node_evaluations();
         hand_back(&island, &copy.bodies, &members, world);
         Ok((self.settle_island(island, &held, &ids, world), done))
     }

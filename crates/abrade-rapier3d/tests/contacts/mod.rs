@@ -3,4 +3,5 @@
 
 mod rig;
 mod rows;
+mod soak;
 mod table;

@@ -33,7 +33,6 @@ pub struct Rig {
     pub world: PhysicsWorld,
     pub wear: WearWorld,
     pub plate: SurfaceId,
-    pub proxy: ColliderHandle,
     pub time: f64,
 }
 
@@ -80,7 +79,7 @@ impl Rig {
         };
         let mut wear = WearWorld::new(settings);
         let plate = wear.insert_on_top(plate.surface(), proxy, &mut world.colliders);
-        Self { case, world, wear, plate: plate.expect("a proxy"), proxy, time: 0.0 }
+        Self { case, world, wear, plate: plate.expect("a proxy"), time: 0.0 }
     }
 
     /// A body at `at` above the plate's middle [m].

@@ -3,7 +3,7 @@
 use super::rig::{GAP, RADIUS, Rig, towards_plate};
 use crate::plugin::abrade::State;
 use crate::plugin::rapier::prelude::*;
-use crate::plugin::{MicroStep, WearEvent, WearObserver, scalar};
+use crate::plugin::{MicroStep, Resolve, WearEvent, WearObserver, scalar};
 use nalgebra::Vector3;
 
 /// What a hail leaves behind.
@@ -90,7 +90,7 @@ fn a_hail_gives_the_same_bits_on_any_number_of_threads() {
 /// Two balls that strike the same spot in one step, `later` [s] after each other: bodies resolved
 /// and refused, and the depths.
 fn strike_twice(later: f64, observer: &mut dyn WearObserver) -> (u64, u64, Vec<f64>) {
-    let mut rig = Rig::new(Vector3::zeros(), 1.0 / 240.0);
+    let mut rig = Rig::resolved_by(Resolve::Micro, Vector3::zeros(), 1.0 / 240.0);
     let v = towards_plate(10.0, 45.0);
     rig.ball(Vector3::z() * (RADIUS + GAP), v);
     rig.ball(Vector3::z() * (RADIUS + GAP) - v * later, v);
@@ -115,7 +115,7 @@ fn two_bodies_may_strike_one_spot_one_after_the_other() {
 fn a_path_that_is_crossed_in_the_same_instant_is_refused() {
     for (late, expected) in [(0.0, 1), (2.0 / 240.0, 0)] {
         let dt = 1.0 / 60.0;
-        let mut rig = Rig::new(Vector3::zeros(), dt);
+        let mut rig = Rig::resolved_by(Resolve::Micro, Vector3::zeros(), dt);
         let fall = 6.0;
         rig.ball(Vector3::z() * (RADIUS + 0.9 * fall * dt), towards_plate(fall, 90.0));
         // Across the path of the first, above the plate, where the first is at half time.

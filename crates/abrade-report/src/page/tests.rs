@@ -13,6 +13,7 @@ fn summary() -> Summary {
         complete: false,
         precision: "f64".into(),
         resolver: ResolverCounts::default(),
+        resolver_reasons: BTreeMap::new(),
         wall: 0.25,
         simulated: 1.2e-5,
         steps: 60,

@@ -3,7 +3,7 @@
 use abrade::ParameterError;
 
 use super::Checker;
-use crate::scene::{Motion, Output, Resolve, Stop};
+use crate::scene::{Motion, Output, Stop};
 use crate::spans::ScenePath;
 
 impl Checker<'_> {
@@ -18,11 +18,6 @@ impl Checker<'_> {
                 ParameterError::positive("step", run.step),
             ],
         );
-        match run.resolve {
-            Resolve::Auto | Resolve::Micro => {}
-            Resolve::QuasiStatic => self.not_available(&path.join("resolve"), "QuasiStatic"),
-            Resolve::Lockstep => self.not_available(&path.join("resolve"), "Lockstep"),
-        }
         for (i, output) in self.scene.outputs.iter().enumerate() {
             self.check_output(&ScenePath::of(["outputs".to_owned(), i.to_string()]), output);
         }

@@ -1,5 +1,7 @@
 //! What a run needs of the physics engine, whatever its precision.
 
+use std::collections::BTreeMap;
+
 use abrade::{Driven, Ledger, State, Surface};
 use nalgebra::Vector3;
 
@@ -71,9 +73,13 @@ pub(crate) struct Ended {
 }
 
 /// What was done so far.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Counts {
     pub micro: u64,
+    pub quasi_static: u64,
+    pub lockstep: u64,
+    /// Body steps by "resolver: why it was not Micro".
+    pub reasons: BTreeMap<String, u64>,
     pub steps: u64,
     pub node_evaluations: u64,
 }

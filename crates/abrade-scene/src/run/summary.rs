@@ -55,7 +55,12 @@ pub(crate) fn summary(run: &Run<'_>) -> Summary {
             Precision::Single => "f32".to_owned(),
             Precision::Double => "f64".to_owned(),
         },
-        resolver: ResolverCounts { micro: counts.micro, quasi_static: 0, lockstep: 0 },
+        resolver: ResolverCounts {
+            micro: counts.micro,
+            quasi_static: counts.quasi_static,
+            lockstep: counts.lockstep,
+        },
+        resolver_reasons: counts.reasons.clone(),
         wall: run.wall,
         simulated: run.simulated,
         steps: counts.steps,

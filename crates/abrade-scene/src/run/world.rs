@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use abrade::{Body, Drive, Driven, Ledger, Piece, Shape, State, Surface, Until};
 use nalgebra::{Isometry3, Vector3};
 
+use super::plug;
 use super::plug::rapier::dynamics::{RigidBodyBuilder, RigidBodyHandle};
 use super::plug::rapier::geometry::ColliderBuilder;
 use super::plug::rapier::math::Real;
@@ -15,6 +16,7 @@ use super::plug::{
 use crate::build::{Built, BuiltSurface};
 use crate::run::RunError;
 use crate::run::engine::{Counts, Ended, Engine, Sample, Stepped, Watch};
+use crate::scene::Resolve;
 
 /// Thickness of a plate's proxy in lengths of the plate.
 const THICKNESS: f64 = 0.2;
@@ -36,6 +38,7 @@ pub(crate) struct World {
 pub(crate) struct Wishes<'a> {
     pub gravity: [f64; 3],
     pub accuracy: f64,
+    pub resolve: Resolve,
     pub ledger: bool,
     pub until: Until,
     /// Drives by body name, with the index of the surface.
@@ -55,6 +58,12 @@ impl World {
             accuracy: wishes.accuracy,
             ledger: wishes.ledger,
             until: wishes.until,
+            resolve: match wishes.resolve {
+                Resolve::Auto => plug::Resolve::Auto,
+                Resolve::Micro => plug::Resolve::Micro,
+                Resolve::QuasiStatic => plug::Resolve::QuasiStatic,
+                Resolve::Lockstep => plug::Resolve::Lockstep,
+            },
             ..WearSettings::default()
         };
         let mut scene = Self {
@@ -183,7 +192,10 @@ impl Engine for World {
                     surface_index(*surface),
                     reason.to_string(),
                 )),
-                WearEvent::Started { .. } | WearEvent::Failed { .. } => {}
+                WearEvent::Started { .. }
+                | WearEvent::Resolved { .. }
+                | WearEvent::NoIsland { .. }
+                | WearEvent::Failed { .. } => {}
             }
         }
         Ok(stepped)
@@ -222,6 +234,13 @@ impl Engine for World {
         let counters = self.wear.counters();
         Counts {
             micro: counters.micro,
+            quasi_static: counters.quasi_static,
+            lockstep: counters.lockstep,
+            reasons: self
+                .wear
+                .reasons()
+                .map(|(by, why, count)| (format!("{}: {why}", by.name()), count))
+                .collect(),
             steps: counters.steps,
             node_evaluations: counters.node_evaluations,
         }

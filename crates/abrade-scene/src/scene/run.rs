@@ -55,11 +55,12 @@ pub enum Resolve {
     /// The method that fits each body and step.
     #[default]
     Auto,
-    /// The contact integrator alone.
+    /// The contact integrator alone: a body that it cannot carry wears nothing.
     Micro,
-    /// From the engine's impulses; not available yet.
+    /// By the balance of the load that the engine's contact bore, blows included.
     QuasiStatic,
-    /// In tiny steps of the engine; not available yet.
+    /// Every body near a surface in tiny steps of the engine, with all that it touches: the
+    /// reference, at its price.
     Lockstep,
 }
 
