@@ -31,8 +31,18 @@ pub(crate) struct Pressing {
     load: f64,
 }
 
+/// Where a pressed body goes in a step.
+pub(crate) struct Way<'a> {
+    /// Its state at the end, but for the height, in the surface's frame.
+    pub end: &'a State,
+    /// Load that presses it down [N].
+    pub load: f64,
+    /// Length of the step [s].
+    pub dt: f64,
+}
+
 /// What a step pressed into a surface.
-pub(crate) struct Pressed_ {
+pub(crate) struct Outcome {
     pub advance: Advance,
     /// Friction that Rapier's contact should have [-].
     pub friction: f64,
@@ -59,17 +69,16 @@ impl Pressing {
         Ok(Self { surface, pressed, body, load: 0.0 })
     }
 
-    /// Moves on to `end`, in the surface's frame, pressed down by `load` [N].
+    /// Moves on; `None` where nothing moved and no load grew.
     pub fn advance(
         &mut self,
         handle: RigidBodyHandle,
         surfaces: &mut [WornCollider],
         lies: &[Lie],
-        end: &State,
-        load: f64,
-        dt: f64,
+        way: &Way<'_>,
         observer: &mut dyn WearObserver,
-    ) -> Result<Option<Pressed_>, PhysicsError> {
+    ) -> Result<Option<Outcome>, PhysicsError> {
+        let Way { end, load, dt } = *way;
         let pitch = surfaces[self.surface.0].surface.pitch();
         let way = end.position - self.body.state.position;
         let turn = self.body.state.rotation.angle_to(&end.rotation);
@@ -95,7 +104,7 @@ impl Pressing {
         let force = self.pressed.force();
         let ratio = force.xy().norm() / force.z.max(f64::MIN_POSITIVE);
         let friction = if force.z > 0.0 { friction.max(ratio) } else { friction };
-        Ok(Some(Pressed_ { advance, friction }))
+        Ok(Some(Outcome { advance, friction }))
     }
 
     /// Ends the contact: overhangs break off.

@@ -8,7 +8,7 @@ use crate::event::{Refusal, WearEvent};
 use crate::held::{self, Held};
 use crate::lockstep::{Lost, Share, gather};
 use crate::observer::WearObserver;
-use crate::quasi_static::{self, Pressing};
+use crate::quasi_static::{self, Pressing, Way};
 use crate::resolver::{Resolve, Resolver};
 use crate::surface::SurfaceId;
 use crate::tracked::Tracked;
@@ -240,7 +240,8 @@ impl WearWorld {
         let displaced = worn.surface.worn().displaced();
         let pressing = &mut tracked.pressing[at];
         let (surfaces, lies) = (&mut self.surfaces, &self.lies);
-        let done = pressing.advance(held.body, surfaces, lies, &end, load, dt, observer)?;
+        let done =
+            pressing.advance(held.body, surfaces, lies, &Way { end: &end, load, dt }, observer)?;
         let Some(done) = done else { return Ok(()) };
         tracked.friction = done.friction;
         self.counters.steps += done.advance.steps;

@@ -62,8 +62,8 @@ impl Plate {
 impl Rig {
     /// `plate` at the case's origin under `gravity` [m/s2], and what is `scale` [m] large on it.
     pub fn new(case: Case, plate: &Plate, gravity: Vector3<f64>, scale: f64) -> Self {
-        let mut world = PhysicsWorld::default();
-        world.gravity = scalar::to_vector(&gravity);
+        let gravity = scalar::to_vector(&gravity);
+        let mut world = PhysicsWorld { gravity, ..PhysicsWorld::default() };
         world.integration_parameters.dt = n(case.dt);
         world.integration_parameters.length_unit = n(scale);
         world.integration_parameters.normalized_max_linear_velocity = Real::MAX;
