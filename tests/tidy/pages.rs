@@ -1,5 +1,5 @@
-//! Pages that must agree with the tree: README with its commands, scene and example, and the
-//! table of scenes.
+//! Pages that must agree with the tree: README with its commands, scene and example, the pages of
+//! docs with the examples they quote, and the table of scenes.
 
 use crate::fault::{self, Fault};
 use crate::tree;
@@ -36,6 +36,14 @@ fn quotes(name: &str, text: &str, language: &str, file: &tree::File) -> Vec<Faul
     let rule = format!("a `{language}` block must stand in {} as it is", file.name);
     let differs = blocks.is_empty() || blocks.iter().any(|block| !stands_in(block, &file.text));
     fault::at(name, &rule, differs.then_some(0))
+}
+
+/// `rust` blocks of a page that none of `files` holds line for line.
+fn made_up(name: &str, text: &str, files: &[tree::File]) -> Vec<Fault> {
+    let stands = |block: &String| files.iter().any(|file| stands_in(block, &file.text));
+    let rule = "a `rust` block must stand in an example as it is";
+    let blocks = blocks(text, "rust");
+    blocks.iter().filter(|block| !stands(block)).flat_map(|_| fault::at(name, rule, [0])).collect()
 }
 
 /// True when the lines of `block` stand in `text` one after another, indented alike.
@@ -92,6 +100,15 @@ fn readme_quotes_a_scene_and_an_example_that_are_run() {
 }
 
 #[test]
+fn pages_quote_examples_that_are_run() {
+    let (pages, examples) = (tree::files("docs", ".md"), tree::files("examples", ".rs"));
+    assert!(pages.iter().any(|page| !blocks(&page.text, "rust").is_empty()));
+    let faults: Vec<_> =
+        pages.iter().flat_map(|page| made_up(&page.name, &page.text, &examples)).collect();
+    fault::assert_none(&faults);
+}
+
+#[test]
 fn every_scene_is_listed() {
     let table = tree::read("scenes/README.md");
     fault::assert_none(&unlisted(&table.text, &tree::names("scenes")));
@@ -117,6 +134,14 @@ mod refuses {
         assert_lines(&quotes("b.md", "```rust\na();\n\nb();\n```", "rust", &file), &[]);
         assert_lines(&quotes("b.md", "```rust\na();\nb();\n```", "rust", &file), &[1]);
         assert_lines(&quotes("b.md", "no block", "rust", &file), &[1]);
+    }
+
+    #[test]
+    fn blocks_that_no_example_holds() {
+        let files = ["a();\nb();", "    c();"]
+            .map(|text| tree::File { name: "a.rs".into(), text: text.into() });
+        assert_lines(&made_up("b.md", "```rust\nb();\n```\n```rust\nc();\n```", &files), &[]);
+        assert_lines(&made_up("b.md", "```rust\na();\nc();\n```", &files), &[1]);
     }
 
     #[test]
