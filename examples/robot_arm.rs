@@ -57,7 +57,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let a = (2.0 * load / (std::f64::consts::PI * HARDNESS)).sqrt();
         expected += 2.0 / 3.0 * (at - last).max(0.0) * a.powi(3) / f64::from(TIP);
         last = at;
-        println!("at {:5.1} mm: {load:4.1} N", 1e3 * at);
     }
     let worn = wear[plate].wear_volume();
     println!("worn {:.4} mm3, 2/3 L a^3 / R: {:.4} mm3", 1e9 * worn, 1e9 * expected);

@@ -15,6 +15,7 @@ use crate::surface::SurfaceId;
 use crate::world::WearWorld;
 
 /// A query collider, and how worn the surface was that it shows.
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Shown {
     collider: ColliderHandle,
     worn: Worn,

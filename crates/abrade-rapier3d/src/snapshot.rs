@@ -16,6 +16,7 @@ use serde::ser::{Error as _, Serialize, Serializer};
 use crate::drive::DrivenBody;
 use crate::guard::Taken;
 use crate::quasi_static::Pressing;
+use crate::query_collider::Shown;
 use crate::scalar;
 use crate::settings::{Counters, WearSettings};
 use crate::surface::{SurfaceId, WornCollider};
@@ -109,19 +110,20 @@ impl<'de> Deserialize<'de> for WearWorld {
 
 impl Serialize for WornCollider {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        (&*self.surface, self.proxy, self.offset, self.exact).serialize(to)
+        (&*self.surface, self.proxy, self.offset, self.exact, &self.shown).serialize(to)
     }
 }
 
 impl<'de> Deserialize<'de> for WornCollider {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        type Parts = (Surface, ColliderHandle, Isometry3<f64>, Option<(Pose, Isometry3<f64>)>);
-        let (surface, proxy, offset, exact) = Parts::deserialize(from)?;
+        type Exact = Option<(Pose, Isometry3<f64>)>;
+        type Parts = (Surface, ColliderHandle, Isometry3<f64>, Exact, Option<Shown>);
+        let (surface, proxy, offset, exact, shown) = Parts::deserialize(from)?;
         let exact_frame = exact.as_ref().map(|(_, frame)| frame);
         if ![Some(&offset), exact_frame].into_iter().flatten().all(is_frame) {
             return Err(D::Error::custom("the place of a surface is none"));
         }
-        Ok(Self { exact, ..Self::new(surface, proxy, offset) })
+        Ok(Self { exact, shown, ..Self::new(surface, proxy, offset) })
     }
 }
 

@@ -66,3 +66,17 @@ fn a_step_under_way_is_not_saved() {
     save.wear.end_step(WorldView::of(&mut save.world)).expect("a step");
     assert!(postcard::to_stdvec(&save.wear).is_ok());
 }
+
+/// Fails for a query collider that is forgotten: the one in Rapier's bytes would stay as it was,
+/// in front of a second one.
+#[test]
+fn a_query_collider_is_known_again() {
+    let mut save = CASES[0].begun();
+    let (plate, _) = save.wear.surfaces().next().expect("a plate");
+    let shown = save.wear.sync_collider(plate, &mut save.world.colliders).expect("a proxy");
+    save.run(1);
+    let mut read = Save::read(&save.bytes());
+    let count = read.world.colliders.len();
+    assert_eq!(read.wear.sync_collider(plate, &mut read.world.colliders), Ok(shown));
+    assert_eq!(read.world.colliders.len(), count);
+}
