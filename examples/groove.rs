@@ -48,7 +48,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let (way, volume, depth) = (ways[pass], 1e9 * worn[pass], depths[pass]);
         println!("pass {pass}: {way:+.3} m, {volume:.0} mm3, {depth:.2} mm deep");
         if let Some(joint) = world.impulse_joints.get_mut(joint, true) {
-            joint.data = motor(-SPEED).build().into();
+            joint.data = motor(-SPEED).build();
         }
     }
     let a = (2.0 * f64::from(MASS) * 9.81 / (PI * HARDNESS)).sqrt();
