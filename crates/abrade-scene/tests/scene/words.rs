@@ -119,8 +119,6 @@ fn what_is_not_there_yet_says_so() {
     for (argument, what) in [
         ("surfaces.plate.motion=Kinematic(velocity: (1, 0, 0))", "Kinematic"),
         ("surfaces.plate.motion=Free(density: 7800)", "Free"),
-        ("run.resolve=Lockstep", "Lockstep"),
-        ("run.resolve=QuasiStatic", "QuasiStatic"),
         ("outputs.0=Checkpoint", "Checkpoint"),
         ("streams={\"sand\": (rate: 5.0, shape: Ball(radius: \"1 mm\"))}", "streams"),
     ] {
