@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         // What it has when it comes to the plate.
         energy += mass * f64::from(0.5 * fall.length_squared() + 9.81 * height);
     }
-    for _ in 0..40 {
+    for _ in 0..20 {
         wear.step(&mut world, &(), &())?;
         let events = wear.events().iter();
         impacts += events.filter(|event| matches!(event, WearEvent::Ended { .. })).count();
