@@ -85,15 +85,7 @@ impl WearWorld {
         let slot = |handle: &RigidBodyHandle| handle.into_raw_parts().0 as usize;
         let indices: Vec<usize> = self.candidates.iter().map(slot).collect();
         let mut all: Vec<_> = indices.iter().map(|&index| self.bodies[index].take()).collect();
-        let scene = Scene {
-            world,
-            surfaces: &self.surfaces,
-            lies: &self.lies,
-            obstacles: &self.obstacles,
-            settings: &self.settings,
-            dt: self.current.dt,
-            sight: self.current.sight,
-        };
+        let scene = self.scene(world);
         all.par_iter_mut().with_max_len(BATCH).flatten().for_each(|tracked| {
             tracked.ahead = run(tracked, &scene).map(Box::new);
         });

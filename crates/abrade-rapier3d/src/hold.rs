@@ -8,7 +8,6 @@ use crate::guard::Grip;
 use crate::held::Held;
 use crate::lockstep::gather;
 use crate::scalar;
-use crate::start::Scene;
 use crate::tracked::Tracked;
 use crate::view::WorldView;
 use crate::world::WearWorld;
@@ -44,15 +43,7 @@ impl WearWorld {
 
     /// True when the body comes down on a surface faster than `limit` [m/s].
     fn comes_down(&self, handle: RigidBodyHandle, world: &WorldView<'_>, limit: f64) -> bool {
-        let scene = Scene {
-            world,
-            surfaces: &self.surfaces,
-            lies: &self.lies,
-            obstacles: &self.obstacles,
-            settings: &self.settings,
-            dt: self.current.dt,
-            sight: self.current.sight,
-        };
+        let scene = self.scene(world);
         let tracked = Tracked::find(&self.bodies, handle);
         let (Some(tracked), Some(rb)) = (tracked, world.bodies.get(handle)) else { return false };
         let Some(body) = tracked.body() else { return false };

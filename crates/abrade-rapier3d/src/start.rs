@@ -16,6 +16,7 @@ use crate::settings::WearSettings;
 use crate::surface::{SurfaceId, WornCollider};
 use crate::tracked::{Known, Tracked};
 use crate::view::WorldView;
+use crate::world::WearWorld;
 use crate::{afloat, scalar, shadow};
 
 /// Share of its radius by which a body may lie inside a surface and be lifted out of it.
@@ -57,6 +58,21 @@ pub(crate) enum How {
     Whole,
     /// In parts: something is in its way.
     Parts,
+}
+
+impl WearWorld {
+    /// What carrying a body looks at, for those who only look.
+    pub(crate) fn scene<'a>(&'a self, world: &'a WorldView<'a>) -> Scene<'a> {
+        Scene {
+            world,
+            surfaces: &self.surfaces,
+            lies: &self.lies,
+            obstacles: &self.obstacles,
+            settings: &self.settings,
+            dt: self.current.dt,
+            sight: self.current.sight,
+        }
+    }
 }
 
 impl Scene<'_> {

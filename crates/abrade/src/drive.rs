@@ -8,7 +8,7 @@ use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Pla
 use crate::error::PhysicsError;
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
-use crate::press::{LOAD, LOAD_STEPS, Press};
+use crate::press::{Creep, LOAD, LOAD_STEPS, Press};
 #[cfg(feature = "state")]
 use crate::state::{Fault, not_negative, require};
 use crate::surface::Surface;
@@ -226,34 +226,14 @@ impl Driven {
         increment: f64,
         observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
-        self.integrator.fits(placed)?;
         let rotation = placed[0].pose.rotation;
         let (ahead, down) = (rotation * Vector3::x(), -(rotation * Vector3::z()));
         let travel = duration * self.drive.speed;
         let count = (travel / increment).ceil().max(1.0);
-        let dt = duration / count;
-        let mut done = Advance { time: duration, ..Advance::default() };
-        for i in 0..count as u64 {
-            let along = ahead * (travel / count);
-            let press = Press { along, turn: Vector3::zeros(), down, load: self.drive.load };
-            let trial = self.integrator.press(body, placed, &press, increment)?;
-            done.node_evaluations += trial.evaluations;
-            done.steps += 1;
-            if done.steps > self.integrator.step_limit() {
-                return Err(PhysicsError::TooManySteps { steps: done.steps });
-            }
-            self.lead(body, placed, dt, &trial);
-            done.impulse += self.force() * dt;
-            observer.observe(&Instant {
-                time: (i + 1) as f64 * dt,
-                state: &body.state,
-                force: self.force(),
-                surfaces: placed,
-                ledger: self.integrator.kept_ledger(),
-            });
-        }
-        done.contact_time = duration;
-        Ok(done)
+        let along = ahead * (travel / count);
+        let press = Press { along, turn: Vector3::zeros(), down, load: self.drive.load };
+        let creep = Creep { duration, count, scale: increment };
+        self.integrator.creep(body, placed, &press, &creep, observer)
     }
 
     /// The sink within `range` at which the load is `target` [m].

@@ -32,6 +32,17 @@ pub(crate) struct Press {
     pub load: f64,
 }
 
+/// A way in equal increments.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Creep {
+    /// Time of the whole [s].
+    pub duration: f64,
+    /// Number of increments.
+    pub count: f64,
+    /// Sinking that a search for the load begins with [m].
+    pub scale: f64,
+}
+
 impl Integrator {
     /// The trial of an increment after which the load is balanced; `scale` [m] is the sinking
     /// that the search begins with. Commits nothing.
@@ -73,6 +84,48 @@ impl Integrator {
             *side = [middle, over];
         }
         Ok(self.push(body, placed, press, 0.5 * (low[0] + high[0])))
+    }
+
+    /// Takes a body through equal increments, each ending where the load is balanced.
+    pub(crate) fn creep(
+        &mut self,
+        body: &mut Body,
+        placed: &mut [Placed<'_>],
+        press: &Press,
+        creep: &Creep,
+        observer: &mut dyn Observer,
+    ) -> Result<Advance, PhysicsError> {
+        self.fits(placed)?;
+        let Creep { duration, count, scale } = *creep;
+        let dt = duration / count;
+        let mut done = Advance { time: duration, contact_time: duration, ..Advance::default() };
+        for i in 0..count as u64 {
+            let trial = self.press(body, placed, press, scale)?;
+            if !trial.is_finite() {
+                return Err(PhysicsError::NotFinite { time: i as f64 * dt });
+            }
+            done.node_evaluations += trial.evaluations;
+            done.steps += 1;
+            if done.steps > self.step_limit() {
+                return Err(PhysicsError::TooManySteps { steps: done.steps });
+            }
+            self.touched |= trial.touching > 0;
+            let spin =
+                if press.turn == Vector3::zeros() { body.state.spin } else { press.turn / dt };
+            self.lead(body, placed, &trial, [trial.shift / dt, spin]);
+            done.impulse += self.pull.force * dt;
+            for placed in placed.iter() {
+                engulfed(placed, &body.state)?;
+            }
+            observer.observe(&Instant {
+                time: (i + 1) as f64 * dt,
+                state: &body.state,
+                force: self.pull.force,
+                surfaces: placed,
+                ledger: self.kept_ledger(),
+            });
+        }
+        Ok(done)
     }
 
     /// The trial of an increment by which the body sinks `sink` [m].
@@ -131,10 +184,9 @@ impl Pressed {
         hold: &Hold,
         observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
-        let mut done = Advance { time: hold.duration, ..Advance::default() };
         let load = hold.load.norm();
         let Some(down) = hold.load.try_normalize(0.0).filter(|_| load.is_finite()) else {
-            return Ok(done);
+            return Ok(Advance { time: hold.duration, ..Advance::default() });
         };
         if !self.integrator.touched {
             self.lift(body, placed, down);
@@ -144,33 +196,9 @@ impl Pressed {
         let turn = (end.rotation * body.state.rotation.inverse()).scaled_axis();
         let length = way.norm() + turn.norm() * body.shape.bounding_radius();
         let count = (length / hold.increment).ceil().clamp(1.0, hold.limit.max(1) as f64);
-        let dt = hold.duration / count;
         let press = Press { along: way / count, turn: turn / count, down, load };
-        for i in 0..count as u64 {
-            let trial = self.integrator.press(body, placed, &press, hold.increment)?;
-            if !trial.is_finite() {
-                return Err(PhysicsError::NotFinite { time: i as f64 * dt });
-            }
-            done.node_evaluations += trial.evaluations;
-            done.steps += 1;
-            let spin = press.turn / dt;
-            let velocity = trial.shift / dt;
-            self.integrator.touched |= trial.touching > 0;
-            self.integrator.lead(body, placed, &trial, [velocity, spin]);
-            done.impulse += self.force() * dt;
-            for placed in placed.iter() {
-                engulfed(placed, &body.state)?;
-            }
-            observer.observe(&Instant {
-                time: (i + 1) as f64 * dt,
-                state: &body.state,
-                force: self.force(),
-                surfaces: placed,
-                ledger: self.integrator.kept_ledger(),
-            });
-        }
-        done.contact_time = hold.duration;
-        Ok(done)
+        let creep = Creep { duration: hold.duration, count, scale: hold.increment };
+        self.integrator.creep(body, placed, &press, &creep, observer)
     }
 
     /// Lifts a body that an engine left inside the surfaces until it is clear of them.

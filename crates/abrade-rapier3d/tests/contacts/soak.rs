@@ -188,7 +188,8 @@ fn nothing_is_thrown_or_sinks_through() {
 }
 
 #[test]
-#[ignore = "an hour"]
+#[ignore = "hours; cargo test --release -p abrade-rapier3d --test contacts_f32 -- --ignored soak_of \
+            --nocapture"]
 fn soak_of_a_thousand_scenes() {
     let count = std::env::var("SOAK").map_or(1000, |n| n.parse().expect("a number"));
     soak(0..count, 10.0);

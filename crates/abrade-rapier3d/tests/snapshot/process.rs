@@ -32,7 +32,8 @@ fn elsewhere(case: &Case, bytes: &[u8]) -> String {
 
 /// The other process.
 #[test]
-#[ignore = "run by the test below, in a process of its own"]
+#[ignore = "the other process of the test below; cargo test --release -p abrade-rapier3d \
+            --features serde-serialize --test snapshot_f32 another_process"]
 fn goes_on_elsewhere() {
     let Some(path) = env::var_os(BYTES).map(PathBuf::from) else { return };
     let steps = env::var(STEPS).expect("the steps").parse().expect("a number");
