@@ -3,11 +3,11 @@
 
 use std::collections::BTreeMap;
 
-use rapier::dynamics::{RigidBody, RigidBodyHandle};
+use nalgebra::Vector3;
+use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::{Collider, ColliderHandle};
-use rapier::math::Vector;
-use rapier::parry::query::{ShapeCastOptions, cast_shapes};
 
+use crate::lockstep::meeting;
 use crate::obstacle::{Sweep, extent, interact};
 use crate::path::Extent;
 use crate::scalar;
@@ -119,22 +119,10 @@ impl Neighbours {
 fn closes(pair: [&Collider; 2], world: &WorldView<'_>, dt: f64, limit: f64) -> bool {
     let velocity = |collider: &Collider| {
         let body = collider.parent().and_then(|handle| world.bodies.get(handle));
-        body.map_or(Vector::ZERO, RigidBody::linvel)
+        body.map_or_else(Vector3::zeros, |rb| scalar::vector(rb.linvel()))
     };
-    let [a, b] = pair;
-    let (va, vb) = (velocity(a), velocity(b));
-    let relative = scalar::vector(va) - scalar::vector(vb);
-    if relative.norm() <= limit {
-        return false;
-    }
-    let options = ShapeCastOptions {
-        stop_at_penetration: false,
-        ..ShapeCastOptions::with_max_time_of_impact(scalar::narrow(dt))
-    };
-    let (place_a, place_b) = (a.position(), b.position());
-    let hit = cast_shapes(place_a, va, a.shape(), place_b, vb, b.shape(), options);
-    hit.ok().flatten().is_some_and(|hit| {
-        let normal = scalar::vector(place_a.rotation * hit.normal1);
-        hit.time_of_impact > scalar::narrow(0.0) && relative.dot(&normal) > limit
-    })
+    let velocities = pair.map(velocity);
+    let relative = velocities[0] - velocities[1];
+    relative.norm() > limit
+        && meeting(pair, velocities, dt).is_some_and(|normal| relative.dot(&normal) > limit)
 }

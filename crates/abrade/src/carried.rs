@@ -35,6 +35,11 @@ pub struct Carried {
     pending: Option<Pending>,
     /// Impulse of the last step's dashpots [N s] and its torque [N m s], which the next step gets.
     owed: [Vector3<f64>; 2],
+    /// What columns did in the last step.
+    swept: Grip,
+    /// What columns will have done in the step ahead, and the energy their springs are short of [J].
+    #[cfg_attr(feature = "state", serde(skip))]
+    foreseen: (Grip, f64),
     /// Length of the last step, if it ended in contact [s].
     last: f64,
     evaluations: u64,
@@ -43,6 +48,7 @@ pub struct Carried {
 }
 
 /// What the surfaces do to a carried body.
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Grip {
     /// Force on the body [N].
@@ -97,6 +103,8 @@ impl Carried {
             integrator,
             pending: None,
             owed: Default::default(),
+            swept: Grip::default(),
+            foreseen: Default::default(),
             last: 0.0,
             evaluations: 0,
             period_over_tau: 0.0,
@@ -136,12 +144,15 @@ impl Carried {
         }
         let dynamics = self.integrator.dynamics;
         let mut end = body.state;
-        end.velocity += dynamics.accelerate(&(pull.force * (0.5 * dt)));
-        end.spin += dynamics.turn(&end.rotation, &(pull.torque * (0.5 * dt)));
+        end.velocity += dynamics.accelerate(&(self.swept.force * (0.5 * dt)));
+        end.spin += dynamics.turn(&end.rotation, &(self.swept.torque * (0.5 * dt)));
         let (velocity, spin) = (end.velocity, end.spin);
         dynamics.drift(&mut end, dt);
         let trial = self.integrator.ask(body, surfaces, &end, Course { velocity, spin, dt });
-        let swept = trial.swept();
+        let mut state = body.state;
+        let charge = self.integrator.charge(&trial.toll, &mut state);
+        let swept = Grip { force: charge.impulse / dt, torque: charge.torque / dt };
+        self.foreseen = (swept, charge.short);
         Grip { force: springs.force + swept.force, torque: springs.torque + swept.torque }
     }
 
@@ -193,6 +204,7 @@ impl Carried {
         };
         let before = self.integrator.next_dt;
         self.owed = [damping.impulse, damping.torque];
+        (self.swept, self.integrator.short) = self.foreseen;
         self.integrator.book_damping(damping.dissipated);
         self.last = if trial.touching > 0 { dt } else { 0.0 };
         if trial.touching > 0 {
@@ -248,7 +260,8 @@ impl Carried {
 
     pub(crate) fn checked(self) -> Result<Self, Fault> {
         let times = not_negative(self.last) && not_negative(self.period_over_tau);
-        let owed = self.owed.iter().all(|part| finite(part.iter()));
+        let parts = self.owed.iter().chain([&self.swept.force, &self.swept.torque]);
+        let owed = parts.into_iter().all(|part| finite(part.iter()));
         let counted = self.evaluations < u64::MAX / 2;
         require(times && owed && counted, "a carried body is out of range")?;
         Ok(self)

@@ -52,10 +52,24 @@ pub(crate) struct Trial {
     pub shift: Vector3<f64>,
     pub turn: Vector3<f64>,
     springs: Reaction,
-    toll: Toll,
+    pub toll: Toll,
     pub touching: usize,
     pub evaluations: u64,
     pub overlap_change: f64,
+}
+
+/// What columns take from a body in a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Charge {
+    /// Impulse [N s], and its torque about the centre of mass [N m s].
+    pub impulse: Vector3<f64>,
+    pub torque: Vector3<f64>,
+    /// Dissipated by slip under the sweeping faces [J].
+    pub flow_friction: f64,
+    /// Share of the removal that the body can pay [-].
+    pub share: f64,
+    /// Energy that the springs were short of [J].
+    pub short: f64,
 }
 
 /// The accepted end of a step.
@@ -230,6 +244,30 @@ impl Integrator {
         state.spin += self.dynamics.turn(&state.rotation, &(torque * time));
     }
 
+    fn apply(&self, push: &Push, state: &mut State) {
+        state.velocity += self.dynamics.accelerate(&push.impulse);
+        state.spin += self.dynamics.turn(&state.rotation, &push.torque);
+    }
+
+    /// Takes what columns cost from a body in `state`, closed by the energy projection.
+    pub(crate) fn charge(&self, toll: &Toll, state: &mut State) -> Charge {
+        let cost = toll.spring.friction + toll.elastic + toll.lost + self.short;
+        let (scale, short) = balance(&toll.spring, cost, state, &self.dynamics);
+        let sprung = toll.spring.scaled(scale);
+        self.apply(&sprung, state);
+        let cost = toll.wear + toll.flow.friction;
+        let payment = pay(&toll.flow, cost, state, &self.dynamics);
+        let flow = toll.flow.scaled(payment.scale);
+        self.apply(&flow, state);
+        Charge {
+            impulse: sprung.impulse + flow.impulse,
+            torque: sprung.torque + flow.torque,
+            flow_friction: toll.flow.friction * payment.share,
+            share: payment.share,
+            short,
+        }
+    }
+
     /// Commits a trial: second kick, projection, nodes.
     pub(crate) fn settle(
         &mut self,
@@ -243,32 +281,20 @@ impl Integrator {
         let springs = &trial.springs;
         self.kick(body, loads, &springs.force, &springs.torque, 0.5 * dt, &mut state);
         let toll = &trial.toll;
-        let apply = |push: &Push, state: &mut State| {
-            state.velocity += self.dynamics.accelerate(&push.impulse);
-            state.spin += self.dynamics.turn(&state.rotation, &push.torque);
-        };
         // The dashpots in halves around the springs: work at the mean velocity of the step.
         let half = self.is_damped.then(|| self.damping.half());
         if let Some(half) = &half {
-            apply(half, &mut state);
+            self.apply(half, &mut state);
         }
-        let cost = toll.spring.friction + toll.elastic + toll.lost + self.short;
-        let (scale, short) = balance(&toll.spring, cost, &state, &self.dynamics);
-        let sprung_push = toll.spring.scaled(scale);
-        apply(&sprung_push, &mut state);
-        let cost = toll.wear + toll.flow.friction;
-        let payment = pay(&toll.flow, cost, &state, &self.dynamics);
-        let flow_push = toll.flow.scaled(payment.scale);
-        apply(&flow_push, &mut state);
-        let mut impulse = sprung_push.impulse + flow_push.impulse;
-        let mut torque = sprung_push.torque + flow_push.torque;
+        let Charge { mut impulse, mut torque, flow_friction, share, short } =
+            self.charge(toll, &mut state);
         if let Some(half) = &half {
-            apply(half, &mut state);
+            self.apply(half, &mut state);
             impulse += self.damping.impulse;
             torque += self.damping.torque;
         }
         self.short = short;
-        let (elastic, push) = self.commit(surfaces, trial, payment.share);
+        let (elastic, push) = self.commit(surfaces, trial, share);
         let pull = Pull {
             force: springs.force + impulse / dt,
             torque: springs.torque + torque / dt,
@@ -278,11 +304,9 @@ impl Integrator {
         };
         let ledger = Ledger {
             elastic,
-            friction: springs.ledger.friction
-                + toll.spring.friction
-                + toll.flow.friction * payment.share,
+            friction: springs.ledger.friction + toll.spring.friction + flow_friction,
             damping: half.map_or(0.0, |_| self.damping.dissipated),
-            wear: springs.ledger.wear + toll.wear * payment.share,
+            wear: springs.ledger.wear + toll.wear * share,
             history: springs.ledger.history + toll.lost,
             ..Ledger::default()
         };

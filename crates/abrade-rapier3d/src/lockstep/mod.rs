@@ -4,6 +4,7 @@
 
 #![allow(unused_qualifications, reason = "in the f64 package the two engines are one")]
 
+mod cast;
 mod copy;
 mod members;
 mod widen;
@@ -19,6 +20,7 @@ use rapier::geometry::ColliderHandle;
 
 use crate::event::Refusal;
 use crate::held::Held;
+pub(crate) use crate::lockstep::cast::meeting;
 use crate::lockstep::copy::copy;
 use crate::lockstep::members::Members;
 pub(crate) use crate::lockstep::members::gather;
