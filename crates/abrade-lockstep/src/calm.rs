@@ -53,16 +53,13 @@ impl Calm {
     }
 }
 
-/// Bound of the speed at which points of the body move along the surfaces' normals [m/s].
-pub(crate) fn normal_speed(body: &Body, surfaces: &[Placed<'_>]) -> f64 {
-    let speed = |placed: &Placed<'_>| {
-        let up: Vector3<f64> = placed.pose.rotation * Vector3::z();
-        let lever = match body.shape.pieces() {
-            [Piece::Ball(ball)] => ball.centre.coords.norm(),
-            _ => body.shape.bounding_radius(),
-        };
-        let tilting = body.state.spin - up * up.dot(&body.state.spin);
-        body.state.velocity.dot(&up).abs() + tilting.norm() * lever
+/// Bound of the speed at which points of the body move along the surface's normal [m/s].
+pub(crate) fn normal_speed(body: &Body, placed: &Placed<'_>) -> f64 {
+    let up: Vector3<f64> = placed.pose.rotation * Vector3::z();
+    let lever = match body.shape.pieces() {
+        [Piece::Ball(ball)] => ball.centre.coords.norm(),
+        _ => body.shape.bounding_radius(),
     };
-    surfaces.iter().map(speed).fold(0.0, f64::max)
+    let tilting = body.state.spin - up * up.dot(&body.state.spin);
+    body.state.velocity.dot(&up).abs() + tilting.norm() * lever
 }

@@ -2,13 +2,13 @@
 
 use abrade::{Met, PhysicsError, Placed, State};
 use rapier::dynamics::{GenericJoint, RigidBody, RigidBodyHandle};
-use rapier::geometry::{ColliderHandle, NarrowPhase};
+use rapier::geometry::{ColliderHandle, ContactPair, NarrowPhase};
 use rapier::math::Vector;
 use rapier::pipeline::{ActiveHooks, PhysicsWorld};
 
-use crate::calm::{Seen, normal_speed};
+use crate::calm::Seen;
 use crate::convert::{state, to_vector};
-use crate::filter::Filter;
+use crate::filter::{Filter, Proxy, Wearing};
 use crate::pairs::Pairs;
 use crate::parameters::{refine, refine_joint};
 use crate::rewind::Rewind;
@@ -62,6 +62,8 @@ pub struct Island {
     coarsest: f64,
     /// It has not taken a step yet.
     is_new: bool,
+    /// Its budget is spent: nothing wakes it.
+    is_out: bool,
 }
 
 impl Island {
@@ -70,7 +72,7 @@ impl Island {
     pub fn new(
         mut world: PhysicsWorld,
         wearers: Vec<Wearer>,
-        proxies: Vec<ColliderHandle>,
+        proxies: Vec<Proxy>,
         settings: IslandSettings,
     ) -> Self {
         refine(&mut world.integration_parameters);
@@ -79,7 +81,7 @@ impl Island {
         }
         for proxy in &proxies {
             let hooks = ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS;
-            if let Some(collider) = world.colliders.get_mut(*proxy) {
+            if let Some(collider) = world.colliders.get_mut(proxy.collider) {
                 collider.set_active_hooks(hooks);
             }
         }
@@ -105,12 +107,8 @@ impl Island {
             rest_load,
             coarsest,
             is_new: true,
+            is_out: false,
         }
-    }
-
-    /// The world.
-    pub fn world(&self) -> &PhysicsWorld {
-        &self.world
     }
 
     /// The bodies that wear.
@@ -165,7 +163,7 @@ impl Island {
     ) -> Result<Done, PhysicsError> {
         self.wearers.iter_mut().for_each(|w| w.calm.rests = true);
         self.mark();
-        self.rest_load = f64::INFINITY;
+        self.is_out = true;
         for _ in 0..COARSEST as usize {
             self.step(surfaces, remaining / COARSEST)?;
             done.steps += 1;
@@ -173,11 +171,12 @@ impl Island {
         Ok(done)
     }
 
-    /// Bodies that are slow at the start begin at rest.
+    /// Bodies that are slow at the start begin at rest; what slides along would wear.
     fn let_rest(&mut self, surfaces: &[Placed<'_>]) {
         let limit = self.settings.rest_speed;
         for wearer in &mut self.wearers {
-            wearer.calm.rests = normal_speed(&wearer.body, surfaces) < limit;
+            let still = wearer.normal_speed(surfaces) < limit;
+            wearer.calm.rests = still && wearer.speed() < limit;
         }
         self.mark();
     }
@@ -186,7 +185,9 @@ impl Island {
     fn mark(&mut self) {
         self.filter.forget();
         self.filter.wearers.clear();
-        self.filter.wearers.extend(self.wearers.iter().map(|w| (w.handle, w.calm.rests)));
+        let wearing =
+            |w: &Wearer| Wearing { body: w.handle, rests: w.calm.rests, uses: w.uses.clone() };
+        self.filter.wearers.extend(self.wearers.iter().map(wearing));
     }
 
     /// Length of the next step [s].
@@ -254,14 +255,16 @@ impl Island {
             self.mark();
             return Ok(Met::TooLong(0.5 * h));
         }
-        for wearer in &mut self.wearers {
-            let Some(rb) = self.world.bodies.get(wearer.handle) else { continue };
-            let end = state(rb);
-            if wearer.calm.rests {
-                wearer.body.state = end;
-            } else if let Met::TooLong(shorter) = wearer.meet(surfaces, &end, h)? {
+        let world = &self.world;
+        let end = |wearer: &Wearer| world.bodies.get(wearer.handle).map(state);
+        for wearer in self.wearers.iter_mut().filter(|w| !w.calm.rests) {
+            let Some(end) = end(wearer) else { continue };
+            if let Met::TooLong(shorter) = wearer.meet(surfaces, &end, h)? {
                 return Ok(Met::TooLong(shorter));
             }
+        }
+        for wearer in self.wearers.iter_mut().filter(|w| w.calm.rests) {
+            wearer.body.state = end(wearer).unwrap_or(wearer.body.state);
         }
         self.rest_load += (impulse / h - self.rest_load) * (h / self.coarsest).min(1.0);
         let mut on_springs = self.wearers.iter_mut().filter(|w| !w.calm.rests);
@@ -269,14 +272,21 @@ impl Island {
         Ok(Met::Fits)
     }
 
-    /// Impulse of the contacts at rest in the last step [N s].
+    /// Impulse of the wearing bodies' contacts at rest in the last step [N s].
     fn rest_impulse(&self) -> f64 {
-        let pairs = self.filter.proxies.iter();
         let narrow: &NarrowPhase = &self.world.narrow_phase;
-        let of = |proxy: &ColliderHandle| -> f64 {
-            narrow.contact_pairs_with(*proxy).map(|pair| pair.total_impulse().length()).sum()
+        let body = |collider: ColliderHandle| {
+            self.world.colliders.get(collider).and_then(|collider| collider.parent())
         };
-        pairs.map(of).sum()
+        let rests = |pair: &&ContactPair| {
+            let colliders = [pair.collider1, pair.collider2];
+            self.filter.rest(colliders, colliders.map(body)) == Some(true)
+        };
+        let of = |proxy: &Proxy| -> f64 {
+            let pairs = narrow.contact_pairs_with(proxy.collider).filter(rests);
+            pairs.map(|pair| pair.total_impulse().length()).sum()
+        };
+        self.filter.proxies.iter().map(of).sum()
     }
 
     /// Do contacts at rest carry an impulse, in a step of `h` [s], that resting does not explain?
@@ -284,7 +294,7 @@ impl Island {
         let resting = self.wearers.iter().filter(|w| w.calm.rests);
         let mass: f64 = resting.map(|w| w.body.inertia.mass).sum();
         let jolt = mass * self.settings.rest_speed / self.coarsest;
-        impulse > (STRUCK * self.rest_load + jolt) * h
+        mass > 0.0 && !self.is_out && impulse > (STRUCK * self.rest_load + jolt) * h
     }
 
     /// Puts bodies that only ring to rest.
@@ -296,7 +306,7 @@ impl Island {
         let mut changed = false;
         for wearer in self.wearers.iter_mut().filter(|w| !w.calm.rests) {
             let seen = Seen {
-                speed: normal_speed(&wearer.body, surfaces),
+                speed: wearer.normal_speed(surfaces),
                 limit,
                 touches: wearer.contact.in_contact(),
                 wears: wearer.wears,
@@ -309,11 +319,6 @@ impl Island {
         if changed {
             self.mark();
         }
-    }
-
-    /// Ends every contact: overhangs break off.
-    pub fn end(&mut self, surfaces: &mut [Placed<'_>]) {
-        self.wearers.iter_mut().for_each(|w| w.end(surfaces));
     }
 
     /// Kinetic energy of its bodies, and with their height [J].

@@ -30,5 +30,6 @@ mod state;
 mod wearer;
 
 pub use convert::{from_vector, to_pose, to_vector};
+pub use filter::Proxy;
 pub use island::{Done, Island, IslandSettings};
 pub use wearer::Wearer;

@@ -5,6 +5,8 @@ use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{Aabb, Collider, ColliderHandle};
 use rapier::pipeline::PhysicsWorld;
 
+use crate::filter::Proxy;
+
 /// The pairs of an island, found once.
 pub(crate) struct Pairs {
     list: Vec<[ColliderHandle; 2]>,
@@ -12,9 +14,12 @@ pub(crate) struct Pairs {
 
 impl Pairs {
     /// Pairs of colliders of different bodies, of which one moves.
-    pub fn of(world: &PhysicsWorld, proxies: &[ColliderHandle]) -> Self {
-        let colliders: Vec<(ColliderHandle, &Collider)> =
-            world.colliders.iter().filter(|(handle, _)| !proxies.contains(handle)).collect();
+    pub fn of(world: &PhysicsWorld, proxies: &[Proxy]) -> Self {
+        let colliders: Vec<(ColliderHandle, &Collider)> = world
+            .colliders
+            .iter()
+            .filter(|(handle, _)| proxies.iter().all(|p| p.collider != *handle))
+            .collect();
         let mut list = Vec::new();
         for (at, (first, a)) in colliders.iter().enumerate() {
             for (second, b) in &colliders[at + 1..] {

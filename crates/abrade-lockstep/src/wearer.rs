@@ -3,10 +3,10 @@
 use abrade::{
     Body, Carried, EncounterSettings, Grip, Ledger, Loads, Met, PhysicsError, Placed, State,
 };
-use nalgebra::{Isometry3, Translation3, Vector3};
+use nalgebra::{Translation3, Vector3};
 use rapier::dynamics::RigidBodyHandle;
 
-use crate::calm::Calm;
+use crate::calm::{Calm, normal_speed};
 
 /// A body that wears the island's surfaces.
 pub struct Wearer {
@@ -22,7 +22,9 @@ pub struct Wearer {
     pub(crate) grip: Grip,
     pub(crate) impulse: Vector3<f64>,
     pub(crate) contact_time: f64,
-    /// By how much each surface is lowered for this body, which an engine left inside it [m].
+    /// The surfaces of the island that it wears, by their places in it.
+    pub(crate) uses: Vec<usize>,
+    /// By how much each of them is lowered for this body, which an engine left inside it [m].
     pub(crate) lifts: Vec<f64>,
     worn: Vec<f64>,
     /// Volumes displaced before a step [m3].
@@ -34,7 +36,7 @@ pub struct Wearer {
 }
 
 impl Wearer {
-    /// A wearing body, in whose contact every surface of the island takes part.
+    /// A body that wears those of the island's `surfaces` that `uses` names by their places.
     ///
     /// # Errors
     /// A law that does not go with the body's shape, or an inertia out of range.
@@ -42,12 +44,14 @@ impl Wearer {
         handle: RigidBodyHandle,
         body: Body,
         loads: Loads,
-        surfaces: &[Placed<'_>],
+        surfaces: &mut [Placed<'_>],
+        uses: Vec<usize>,
         settings: EncounterSettings,
     ) -> Result<Self, PhysicsError> {
-        let mut contact = Carried::new(&body, surfaces.iter().map(|p| &*p.surface), settings)?;
-        let lifts = contact.overlaps(&body, surfaces);
-        Ok(Self::of(handle, body, loads, contact, lifts))
+        let own = own(surfaces, &uses, &[]);
+        let mut contact = Carried::new(&body, own.iter().map(|p| &*p.surface), settings)?;
+        let lifts = contact.overlaps(&body, &own);
+        Ok(Self { uses, ..Self::of(handle, body, loads, contact, lifts) })
     }
 
     /// A body that joins an island with the `contact` it has.
@@ -69,6 +73,7 @@ impl Wearer {
             worn: vec![0.0; lifts.len()],
             mark: vec![0.0; lifts.len()],
             wears: false,
+            uses: Vec::new(),
             lifts,
             booked: *contact.ledger(),
             seen: contact.node_evaluations(),
@@ -76,13 +81,13 @@ impl Wearer {
         }
     }
 
-    /// The same body in another island, from where it is.
-    pub fn resumed(self, handle: RigidBodyHandle, loads: Loads) -> Self {
+    /// The same body in another island, from where it is, with the same surfaces.
+    pub fn resumed(self, handle: RigidBodyHandle, loads: Loads, uses: Vec<usize>) -> Self {
         let worn = vec![0.0; self.worn.len()];
         let (impulse, contact_time) = (Vector3::zeros(), 0.0);
         let booked = *self.contact.ledger();
         let seen = self.contact.node_evaluations();
-        Self { handle, loads, impulse, contact_time, worn, booked, seen, ..self }
+        Self { handle, loads, impulse, contact_time, worn, booked, seen, uses, ..self }
     }
 
     /// True when it rests on a contact of Rapier's.
@@ -95,7 +100,7 @@ impl Wearer {
         self.calm.is_slow
     }
 
-    /// Volume displaced on each surface since it joined the island [m3].
+    /// Volume displaced on each of its surfaces since it joined the island [m3].
     pub fn worn(&self) -> &[f64] {
         &self.worn
     }
@@ -127,29 +132,26 @@ impl Wearer {
         self.contact_time
     }
 
-    /// Runs `act` with the surfaces where they lie for this body.
+    /// Runs `act` with its surfaces where they lie for it.
     fn lowered<R>(
         &mut self,
         surfaces: &mut [Placed<'_>],
         act: impl FnOnce(&mut Carried, &mut Body, &mut [Placed<'_>]) -> R,
     ) -> R {
-        let lower = |surfaces: &mut [Placed<'_>], sign: f64| {
-            for (placed, lift) in surfaces.iter_mut().zip(&self.lifts) {
-                if *lift > 0.0 {
-                    placed.pose *= Translation3::new(0.0, 0.0, sign * lift);
-                }
-            }
-        };
-        let poses: Vec<Isometry3<f64>> = match self.lifts.iter().any(|lift| *lift > 0.0) {
-            true => surfaces.iter().map(|placed| placed.pose).collect(),
-            false => Vec::new(),
-        };
-        lower(surfaces, -1.0);
-        let result = act(&mut self.contact, &mut self.body, surfaces);
-        for (placed, pose) in surfaces.iter_mut().zip(poses) {
-            placed.pose = pose;
-        }
-        result
+        let mut own = own(surfaces, &self.uses, &self.lifts);
+        act(&mut self.contact, &mut self.body, &mut own)
+    }
+
+    /// Bound of the speed at which its points move along the normals of its surfaces [m/s].
+    pub(crate) fn normal_speed(&self, surfaces: &[Placed<'_>]) -> f64 {
+        let speeds = self.uses.iter().map(|&at| normal_speed(&self.body, &surfaces[at]));
+        speeds.fold(0.0, f64::max)
+    }
+
+    /// Bound of the speed of its points [m/s].
+    pub(crate) fn speed(&self) -> f64 {
+        let state = &self.body.state;
+        state.velocity.norm() + state.spin.norm() * self.body.shape.bounding_radius()
     }
 
     /// Longest step that its contact allows [s].
@@ -180,13 +182,13 @@ impl Wearer {
         surfaces: &mut [Placed<'_>],
         dt: f64,
     ) -> Result<(), PhysicsError> {
-        for (mark, placed) in self.mark.iter_mut().zip(surfaces.iter()) {
-            *mark = placed.surface.worn().displaced();
+        for (mark, &at) in self.mark.iter_mut().zip(&self.uses) {
+            *mark = surfaces[at].surface.worn().displaced();
         }
         self.lowered(surfaces, |contact, body, surfaces| contact.follow(body, surfaces))?;
         self.wears = false;
-        for ((worn, mark), placed) in self.worn.iter_mut().zip(&self.mark).zip(surfaces.iter()) {
-            let gained = placed.surface.worn().displaced() - mark;
+        for ((worn, mark), &at) in self.worn.iter_mut().zip(&self.mark).zip(&self.uses) {
+            let gained = surfaces[at].surface.worn().displaced() - mark;
             *worn += gained;
             self.wears |= gained > 0.0;
         }
@@ -196,9 +198,16 @@ impl Wearer {
         }
         Ok(())
     }
+}
 
-    /// Ends its contact where it lies: overhangs break off.
-    pub(crate) fn end(&mut self, surfaces: &mut [Placed<'_>]) {
-        self.contact.end(surfaces);
+/// The surfaces that `uses` names, lowered by `lifts` [m].
+fn own<'a>(surfaces: &'a mut [Placed<'_>], uses: &[usize], lifts: &[f64]) -> Vec<Placed<'a>> {
+    let mut own = Vec::with_capacity(uses.len());
+    for (at, placed) in surfaces.iter_mut().enumerate() {
+        let Some(order) = uses.iter().position(|used| *used == at) else { continue };
+        let lift = lifts.get(order).copied().unwrap_or(0.0);
+        let pose = placed.pose * Translation3::new(0.0, 0.0, -lift);
+        own.push(Placed { surface: &mut *placed.surface, pose });
     }
+    own
 }

@@ -5,7 +5,7 @@ use abrade::{
     Shape, State, Surface, SurfaceLaws, Until, cuboid_vertices,
 };
 use abrade_lockstep::rapier::prelude::*;
-use abrade_lockstep::{Island, IslandSettings, Wearer, to_pose, to_vector};
+use abrade_lockstep::{Island, IslandSettings, Proxy, Wearer, to_pose, to_vector};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 
 const FREE: IslandSettings =
@@ -121,10 +121,11 @@ fn by_island(
     let settings = EncounterSettings { accuracy, ..EncounterSettings::default() };
     let wearers: Vec<_> = bodies
         .iter()
-        .map(|(h, b)| Wearer::new(*h, b.clone(), Loads::default(), &placed, settings))
+        .map(|(h, b)| Wearer::new(*h, b.clone(), Loads::default(), &mut placed, vec![0], settings))
         .collect::<Result<_, _>>()
         .expect("wearers");
-    let mut island = Island::new(world, wearers, vec![proxy], FREE);
+    let mut island =
+        Island::new(world, wearers, vec![Proxy { collider: proxy, friction: 0.5 }], FREE);
     let done = island.advance(&mut placed, 2e-4, &mut |_, _, _| ()).expect("an impact");
     let states: Vec<State> = island.wearers().iter().map(|w| w.body.state).collect();
     let count = states.len() as f64;

@@ -70,7 +70,7 @@ pub enum WearEvent {
     },
 }
 
-/// Why the gate refused a body for a step.
+/// Why a body was not carried by Micro, or an island not taken in lockstep.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub enum Refusal {
@@ -99,6 +99,9 @@ pub enum Refusal {
     /// It lies on a surface, or slides or rolls along it.
     #[error("the body lies on the surface, or slides or rolls along it")]
     Resting,
+    /// Its springs are still loaded from a blow taken in lockstep.
+    #[error("the body is in a blow that was begun in lockstep")]
+    Blow,
     /// The world asks for another resolver.
     #[error("the world asks for another resolver")]
     Asked,
@@ -134,6 +137,7 @@ impl Refusal {
             Self::Massless => "massless",
             Self::Inside => "inside",
             Self::Resting => "resting",
+            Self::Blow => "blow",
             Self::Asked => "asked",
             Self::Stiff => "stiff",
             Self::Multibody => "multibody",

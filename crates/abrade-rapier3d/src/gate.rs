@@ -27,6 +27,13 @@ pub(crate) struct Lie {
     pub extent: Extent,
 }
 
+impl Lie {
+    /// Where the surface `id` lies, unless its proxy is gone.
+    pub fn find(lies: &[Self], id: SurfaceId) -> Option<&Self> {
+        lies.iter().find(|lie| lie.id == id)
+    }
+}
+
 /// Where the surfaces lie; those whose proxy is gone or disabled are left out.
 pub(crate) fn lie(surfaces: &[WornCollider], colliders: &ColliderSet, lies: &mut Vec<Lie>) {
     lies.clear();
@@ -247,6 +254,11 @@ pub(crate) fn loads(rb: &RigidBody, gravity: &Vector3<f64>, frame: &Isometry3<f6
         linear_damping: scalar::wide(rb.linear_damping()),
         angular_damping: scalar::wide(rb.angular_damping()),
     }
+}
+
+/// True for bodies that could wear something if something woke them.
+pub(crate) fn may_wake(rb: &RigidBody) -> bool {
+    rb.is_dynamic() && rb.is_enabled() && rb.is_sleeping() && !rb.is_soft_frame()
 }
 
 /// True for bodies that can wear anything: dynamic, enabled, awake, no proxy of a soft body.

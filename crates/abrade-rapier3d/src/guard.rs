@@ -11,7 +11,7 @@ use crate::surface::WornCollider;
 /// How a surface meets a body that Rapier keeps in hand.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grip {
-    /// Friction of the contact [-].
+    /// Least friction of the contact [-]: more than the material's where the body ploughs.
     pub friction: f64,
     /// It lies on the surface, or in what it has worn: a clamp of its path to the undeformed
     /// proxy would hold it fast.
@@ -63,7 +63,7 @@ impl Taken {
         }
     }
 
-    fn has_body(&self, body: Option<RigidBodyHandle>) -> bool {
+    pub fn has_body(&self, body: Option<RigidBodyHandle>) -> bool {
         body.is_some_and(|body| self.bodies.binary_search(&body.into_raw_parts()).is_ok())
     }
 
@@ -144,7 +144,9 @@ impl PhysicsHooks for WearGuard<'_> {
         for ([own, other], body) in
             [(pair, context.rigid_body2), ([pair[1], pair[0]], context.rigid_body1)]
         {
-            if let (Some(worn), Some(grip)) = (self.surface_on(own), self.taken.grip(body)) {
+            if let Some(grip) = self.taken.grip(body)
+                && let Some(worn) = self.surface_on(own)
+            {
                 lay(context, worn, other, grip.friction);
             }
         }

@@ -1,6 +1,6 @@
 //! Leaving a body in Rapier's hands through a step, until what it bore is known.
 
-use rapier::dynamics::RigidBodyHandle;
+use rapier::dynamics::{RigidBody, RigidBodyHandle};
 
 use crate::event::Refusal;
 use crate::gate::Course;
@@ -19,26 +19,46 @@ impl WearWorld {
     /// Leaves a body in Rapier's hands.
     pub(crate) fn hold(&mut self, body: RigidBodyHandle, reason: Refusal, world: &WorldView<'_>) {
         let dt = self.current.dt;
-        self.neighbours.collect(world, dt, |c| self.surfaces.iter().any(|w| w.proxy == c));
+        self.find_neighbours(world);
         let tracked = Tracked::slot(&mut self.bodies, body);
         let Some(rb) = world.bodies.get(body) else { return };
         if let Err(reason) = tracked.derive(rb, world.colliders) {
             let surface = tracked.near[0];
             return self.refuse(body, surface, reason);
         }
-        let gravity = scalar::vector(world.gravity);
-        let rest_speed = gravity.norm() * scalar::wide(rb.gravity_scale()).abs() * dt;
+        let rest_speed = rest_speed(rb, world, dt);
         let limit = STRIKE * rest_speed;
         let strikes = tracked.is_in_lockstep_blow()
             || self.comes_down(body, world, limit)
             || self.is_struck(body, world, limit);
         let tracked = Tracked::slot(&mut self.bodies, body);
-        let surfaces = tracked.near.clone();
-        let first = self.surfaces[surfaces[0].0].surface.laws().material.friction;
-        let friction = tracked.friction.max(first);
+        let mut surfaces = tracked.near.clone();
+        surfaces.sort_unstable();
+        let friction = tracked.friction;
         self.taken.add_held(body, Grip { friction, lies: !strikes });
         let bore = tracked.borne.iter().map(|(_, load)| load).sum();
         self.held.push(Held { body, surfaces, reason, strikes, rest_speed, bore });
+    }
+
+    /// Collects what could meet what in this step, once.
+    pub(crate) fn find_neighbours(&mut self, world: &WorldView<'_>) {
+        let surfaces = &self.surfaces;
+        let is_proxy = |collider| surfaces.iter().any(|worn| worn.proxy == collider);
+        self.neighbours.collect(world, self.current.dt, is_proxy);
+    }
+
+    /// Holds the sleepers that Rapier's step has woken: something struck them.
+    pub(crate) fn hold_the_woken(&mut self, world: &WorldView<'_>) {
+        for &body in &self.sleepers {
+            let Some(rb) = world.bodies.get(body).filter(|rb| !rb.is_sleeping()) else { continue };
+            let tracked = Tracked::slot(&mut self.bodies, body);
+            let mut surfaces = tracked.near.clone();
+            surfaces.sort_unstable();
+            let bore = tracked.borne.iter().map(|(_, load)| load).sum();
+            let rest_speed = rest_speed(rb, world, self.current.dt);
+            let (reason, strikes) = (Refusal::Resting, false);
+            self.held.push(Held { body, surfaces, reason, strikes, rest_speed, bore });
+        }
     }
 
     /// True when the body comes down on a surface faster than `limit` [m/s].
@@ -55,9 +75,14 @@ impl WearWorld {
     /// `limit` [m/s].
     fn is_struck(&self, body: RigidBodyHandle, world: &WorldView<'_>, limit: f64) -> bool {
         let (near, dt) = (&self.neighbours, self.current.dt);
-        match gather(body, world, near) {
+        match gather(body, world, near, |_| true) {
             Ok(members) => members.bodies.iter().any(|m| near.blow(*m, world, dt, limit)),
             Err(_) => near.blow(body, world, dt, limit),
         }
     }
+}
+
+/// Speed that gravity gives a body in a step: below it an approach is rest [m/s].
+fn rest_speed(rb: &RigidBody, world: &WorldView<'_>, dt: f64) -> f64 {
+    scalar::vector(world.gravity).norm() * scalar::wide(rb.gravity_scale()).abs() * dt
 }

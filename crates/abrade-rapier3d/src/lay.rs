@@ -25,6 +25,7 @@ pub(crate) fn lay(
         return;
     };
     let Some(manifold) = context.rigid_mut() else { return };
+    let friction = friction.max(worn.surface.laws().material.friction);
     *manifold.friction = scalar::narrow(friction);
     if worn.surface.worn().max_depth == 0.0 {
         return;

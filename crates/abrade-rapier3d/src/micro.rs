@@ -141,7 +141,7 @@ pub(crate) fn poses(
     lies: &[Lie],
     frame: &Isometry3<f64>,
 ) -> Vec<Isometry3<f64>> {
-    let pose = |(order, id): (usize, &SurfaceId)| match lies.iter().find(|lie| lie.id == *id) {
+    let pose = |(order, id): (usize, &SurfaceId)| match Lie::find(lies, *id) {
         Some(lie) if order > 0 => frame.inv_mul(&lie.pose),
         _ => Isometry3::identity(),
     };

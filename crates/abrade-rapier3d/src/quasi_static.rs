@@ -19,6 +19,8 @@ const SAMPLES: f64 = 4.0;
 const LIMIT: u64 = 4000;
 /// Share of a pitch below which a way is none, and of a load below which it has not grown.
 const STILL: f64 = 1e-6;
+/// Pitches by which a body that is elsewhere than it was left has been moved by somebody.
+const ASTRAY: f64 = 0.05;
 
 /// A body pressed against one surface.
 #[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
@@ -69,6 +71,14 @@ impl Pressing {
         Ok(Self { surface, pressed, body, load: 0.0 })
     }
 
+    /// True while the body, at `start` of a step in the surface's frame, is where it was left.
+    pub fn is_at(&self, start: &State, worn: &WornCollider) -> bool {
+        let state = &self.body.state;
+        let turn = state.rotation.angle_to(&start.rotation) * self.body.shape.bounding_radius();
+        let aside = (state.position - start.position).xy().norm() + turn;
+        aside < ASTRAY * worn.surface.pitch()
+    }
+
     /// Moves on; `None` where nothing moved and no load grew.
     pub fn advance(
         &mut self,
@@ -86,7 +96,7 @@ impl Pressing {
         if way < STILL * pitch && load < (1.0 + STILL) * self.load {
             return Ok(None);
         }
-        let Some(lie) = lies.iter().find(|lie| lie.id == self.surface) else { return Ok(None) };
+        let Some(lie) = Lie::find(lies, self.surface) else { return Ok(None) };
         let frame = lie.pose;
         let mut placed = place(surfaces, &[self.surface], &[Isometry3::identity()]);
         let trace = Trace::new(end.position, Vector3::zeros(), dt);

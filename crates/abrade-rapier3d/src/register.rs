@@ -133,7 +133,7 @@ impl WearWorld {
         let rb = bodies.get_mut(handle).filter(|rb| rb.is_dynamic()).ok_or(missing)?;
         rb.recompute_mass_properties_from_colliders(colliders);
         let tracked = Tracked::slot(&mut self.bodies, handle);
-        self.closed += tracked.end(&mut self.events);
+        tracked.leave(&mut self.surfaces, &mut self.closed, &mut self.events);
         tracked.shadow = Some(shadow::write(rb, frame, body.state));
         rb.wake_up(true);
         tracked.register(body);

@@ -1,5 +1,5 @@
 //! Resolving one body near a wear surface: through the gate and the Micro resolver, or left to
-//! Rapier with a reason. Other resolvers take their place here, between the two.
+//! Rapier with a reason, until the other resolvers know what it bore.
 
 use abrade::{PhysicsError, Until};
 use rapier::dynamics::RigidBodyHandle;

@@ -13,7 +13,8 @@ pub enum Resolve {
     Micro,
     /// QuasiStatic alone, blows included.
     QuasiStatic,
-    /// Lockstep alone, with the springs always on: the reference, at its price.
+    /// Lockstep, with the springs always on: the reference, at its price. What no island can hold
+    /// goes to QuasiStatic, and says so.
     Lockstep,
 }
 

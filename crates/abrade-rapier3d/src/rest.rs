@@ -5,7 +5,7 @@ use nalgebra::Isometry3;
 use rapier::dynamics::RigidBody;
 
 use crate::approach::{Strike, strike_speed};
-use crate::gate::Course;
+use crate::gate::{Course, Lie};
 use crate::quasi_static::holds;
 use crate::scalar;
 use crate::start::Scene;
@@ -58,6 +58,6 @@ impl Scene<'_> {
     }
 
     fn frame(&self, id: SurfaceId) -> Option<Isometry3<f64>> {
-        self.lies.iter().find(|lie| lie.id == id).map(|lie| lie.pose)
+        Lie::find(self.lies, id).map(|lie| lie.pose)
     }
 }

@@ -1,10 +1,12 @@
 //! After Rapier's step: what the bodies that it kept in hand bore, and what that wears.
 
 use abrade::PhysicsError;
+use nalgebra::Vector3;
 use rapier::dynamics::RigidBodyHandle;
 
 use crate::booking::Booking;
 use crate::event::{Refusal, WearEvent};
+use crate::gate::Lie;
 use crate::held::{self, Held};
 use crate::lockstep::{Lost, Share, gather};
 use crate::observer::WearObserver;
@@ -21,9 +23,9 @@ const GROWTH: f64 = 1.5;
 
 /// Share of Rapier's geometric slop by which a body may lie in a surface.
 const SLACK: f64 = 0.1;
-/// Weights above which a load is more than Rapier's contact stands, and the share of its radius
-/// that a lighter body may sink.
+/// Weights above which a load is more than Rapier's contact stands.
 const HEAVY: f64 = 3.0;
+/// Share of its radius that a body under a lighter load may sink.
 const SUNK: f64 = 0.1;
 
 impl WearWorld {
@@ -39,9 +41,15 @@ impl WearWorld {
         }
         let mut done = vec![false; held.len()];
         for at in 0..held.len() {
-            if !done[at] && self.wants_lockstep(&held[at]) {
-                let members = self.island(at, &held, world);
-                held.iter().zip(&mut done).for_each(|(h, d)| *d |= members.contains(&h.body));
+            if done[at] || !self.wants_lockstep(&held[at]) {
+                continue;
+            }
+            let (members, taken) = self.island(at, &held, world);
+            for (held, done) in held.iter_mut().zip(&mut done) {
+                if members.contains(&held.body) {
+                    // An island that came to nothing is not tried again from another member.
+                    (*done, held.strikes) = (taken, false);
+                }
             }
         }
         for (held, done) in held.iter().zip(done) {
@@ -69,7 +77,7 @@ impl WearWorld {
         let mut borne = Vec::new();
         for &id in &held.surfaces {
             let worn = &self.surfaces[id.0];
-            let Some(lie) = self.lies.iter().find(|lie| lie.id == id) else { continue };
+            let Some(lie) = Lie::find(&self.lies, id) else { continue };
             let impulse = held::impulse(rb.colliders(), worn, world.narrow_phase);
             borne.push((id, lie.pose.inverse_transform_vector(&impulse).z.max(0.0) / dt));
         }
@@ -79,45 +87,50 @@ impl WearWorld {
         tracked.borne = borne;
     }
 
-    /// Takes the island around a body in lockstep; returns its members, none if it could not.
+    /// Takes the island around a body in lockstep; returns its members, and whether they are
+    /// resolved.
     fn island(
         &mut self,
         at: usize,
         held: &[Held],
         world: &mut WorldView<'_>,
-    ) -> Vec<RigidBodyHandle> {
+    ) -> (Vec<RigidBodyHandle>, bool) {
+        self.find_neighbours(world);
         let first = &held[at];
+        let mut bodies = vec![first.body];
         let rest_speed = match self.settings.resolve {
             Resolve::Lockstep => 0.0,
             _ => first.rest_speed,
         };
-        let members = gather(first.body, world, &self.neighbours).map_err(Lost::from);
+        let members =
+            gather(first.body, world, &self.neighbours, |body| !self.taken.has_body(Some(body)))
+                .map_err(Lost::from);
         let result = members.and_then(|members| {
-            let bodies = members.bodies.clone();
-            self.lockstep(members, held, world, rest_speed).map(|done| (bodies, done))
+            bodies.clone_from(&members.bodies);
+            self.lockstep(members, held, world, rest_speed)
         });
         match result {
-            Ok((bodies, (shares, done))) => {
+            Ok((shares, done)) => {
                 self.counters.steps += done.steps;
                 for share in shares {
                     let reason = held.iter().find(|h| h.body == share.body).map(|h| h.reason);
                     self.book_share(share, reason);
                 }
-                bodies
+                (bodies, true)
             }
             Err(Lost::Refused(reason)) => {
                 self.events.push(WearEvent::NoIsland { body: first.body, reason });
-                Vec::new()
+                (bodies, false)
             }
             Err(Lost::Failed(body, error)) if self.can_go_on(&error) => {
                 let reason = Refusal::Stiff;
                 self.events.push(WearEvent::NoIsland { body, reason });
-                Vec::new()
+                (bodies, false)
             }
             Err(Lost::Failed(body, error)) => {
                 let surface = first.surfaces[0];
                 self.fail(body, surface, error);
-                vec![first.body]
+                (vec![first.body], true)
             }
         }
     }
@@ -134,13 +147,15 @@ impl WearWorld {
     }
 
     fn book_share(&mut self, share: Share, reason: Option<Refusal>) {
-        let Share { body, impulse, contact_time, touches, worn } = share;
+        let Share { body, impulse, contact_time, touches, bears, worn } = share;
         self.counters.lockstep += 1;
         if let Some(reason) = reason {
             *self.reasons.entry((Resolver::Lockstep, reason.name().into())).or_default() += 1;
         }
         let tracked = Tracked::slot(&mut self.bodies, body);
         tracked.let_go(&mut self.surfaces, &mut self.closed);
+        tracked.borne.truncate(1);
+        tracked.borne.iter_mut().for_each(|(_, load)| *load = bears);
         tracked.hand_to(Resolver::Lockstep, reason, &mut self.events);
         let booking = Booking { impulse, contact_time, touches };
         tracked.book(&booking, &worn, &mut self.events);
@@ -153,13 +168,24 @@ impl WearWorld {
         let tracked = Tracked::slot(&mut self.bodies, held.body);
         tracked.hand_to(Resolver::QuasiStatic, Some(held.reason), &mut self.events);
         tracked.wearer = None;
+        tracked.let_go_but(&held.surfaces, &mut self.surfaces, &mut self.closed);
         let borne = std::mem::take(&mut tracked.borne);
+        let touches = borne.iter().any(|(_, load)| *load > 0.0);
+        let contact_time = if touches { self.current.dt } else { 0.0 };
+        let mut booking = Booking { contact_time, touches, ..Booking::default() };
+        let mut worn = Vec::new();
         for &(surface, load) in &borne {
-            if let Err(error) = self.press_on(held, surface, load, world, observer) {
-                self.fail(held.body, surface, error);
+            match self.press_on(held, surface, load, world, observer) {
+                Ok((impulse, gained)) => {
+                    booking.impulse += impulse;
+                    worn.push((surface, gained));
+                }
+                Err(error) => self.fail(held.body, surface, error),
             }
         }
-        Tracked::slot(&mut self.bodies, held.body).borne = borne;
+        let tracked = Tracked::slot(&mut self.bodies, held.body);
+        tracked.borne = borne;
+        tracked.book(&booking, &worn, &mut self.events);
         self.keep_afloat(held, world);
     }
 
@@ -176,7 +202,7 @@ impl WearWorld {
         };
         for id in &held.surfaces {
             let tracked = Tracked::slot(&mut self.bodies, held.body);
-            let lie = self.lies.iter().find(|lie| lie.id == *id);
+            let lie = Lie::find(&self.lies, *id);
             // Asking for it mutably would keep the body awake.
             let (Some(rb), Some(lie)) = (world.bodies.get(held.body), lie) else { continue };
             let Some(body) = tracked.body() else { continue };
@@ -196,6 +222,8 @@ impl WearWorld {
         }
     }
 
+    /// Presses a body on one surface; returns the impulse on it, in the world [N s], and the volume
+    /// displaced [m3].
     fn press_on(
         &mut self,
         held: &Held,
@@ -203,53 +231,53 @@ impl WearWorld {
         load: f64,
         world: &WorldView<'_>,
         observer: &mut dyn WearObserver,
-    ) -> Result<(), PhysicsError> {
+    ) -> Result<(Vector3<f64>, f64), PhysicsError> {
         let dt = self.current.dt;
         let tracked = Tracked::slot(&mut self.bodies, held.body);
-        let Some(rb) = world.bodies.get(held.body) else { return Ok(()) };
-        let Some(lie) = self.lies.iter().find(|lie| lie.id == surface) else { return Ok(()) };
+        let (Some(rb), Some(lie)) = (world.bodies.get(held.body), Lie::find(&self.lies, surface))
+        else {
+            return Ok((Vector3::zeros(), 0.0));
+        };
         let frame = lie.pose;
+        let held_up = (frame * Vector3::z() * (load * dt), 0.0);
         let worn = &self.surfaces[surface.0];
-        let at = tracked.pressing.iter().position(|p| p.surface == surface);
-        if load == 0.0 {
-            if let Some(at) = at {
-                let mut pressing = tracked.pressing.swap_remove(at);
-                self.closed += pressing.end(&mut self.surfaces);
-            }
-            tracked.book(&Booking::default(), &[], &mut self.events);
-            return Ok(());
+        let start = self.before.of(held.body).map(|before| before.seen_from(&frame));
+        let goes_on = |p: &Pressing| start.is_some_and(|start| p.is_at(&start, worn));
+        let known = tracked.pressing.iter().position(|p| p.surface == surface);
+        if let Some(at) = known.filter(|&at| load == 0.0 || !goes_on(&tracked.pressing[at])) {
+            let mut pressing = tracked.pressing.swap_remove(at);
+            self.closed += pressing.end(&mut self.surfaces);
+            tracked.friction = 0.0;
         }
+        let worn = &self.surfaces[surface.0];
+        let known = tracked.pressing.iter().position(|p| p.surface == surface);
         let area = worn.surface.nodes().rest_area[0];
-        if at.is_none() && quasi_static::holds(worn.surface.laws(), area, load) {
-            return Ok(());
+        let is_firm = quasi_static::holds(worn.surface.laws(), area, load);
+        if load == 0.0 || known.is_none() && is_firm {
+            return Ok(held_up);
         }
         let end = shadow::read(rb, tracked.shadow.as_ref(), &frame);
-        let at = match at {
-            Some(at) => at,
-            None => {
-                let (Some(before), Some(body)) = (self.before.of(held.body), tracked.body()) else {
-                    return Ok(());
-                };
-                let start = before.seen_from(&frame);
+        let at = match (known, start, tracked.body()) {
+            (Some(at), ..) => at,
+            (None, Some(start), Some(body)) => {
                 let settings = self.settings.encounter();
                 let pressing = Pressing::new(body, start, surface, worn, settings)?;
                 tracked.pressing.push(pressing);
                 tracked.pressing.len() - 1
             }
+            _ => return Ok(held_up),
         };
         let displaced = worn.surface.worn().displaced();
         let pressing = &mut tracked.pressing[at];
         let (surfaces, lies) = (&mut self.surfaces, &self.lies);
-        let done =
-            pressing.advance(held.body, surfaces, lies, &Way { end: &end, load, dt }, observer)?;
-        let Some(done) = done else { return Ok(()) };
+        let way = Way { end: &end, load, dt };
+        let Some(done) = pressing.advance(held.body, surfaces, lies, &way, observer)? else {
+            return Ok(held_up);
+        };
         tracked.friction = done.friction;
         self.counters.steps += done.advance.steps;
         self.counters.node_evaluations += done.advance.node_evaluations;
         let gained = self.surfaces[surface.0].surface.worn().displaced() - displaced;
-        let impulse = frame * done.advance.impulse;
-        let booking = Booking { impulse, contact_time: dt, touches: true };
-        tracked.book(&booking, &[(surface, gained)], &mut self.events);
-        Ok(())
+        Ok((frame * done.advance.impulse, gained))
     }
 }

@@ -79,6 +79,7 @@ impl Serialize for WearWorld {
             integrated: _,
             steered: _,
             held: _,
+            sleepers: _,
             before: _,
             events: _,
             current: _,

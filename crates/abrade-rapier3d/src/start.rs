@@ -84,6 +84,9 @@ impl Scene<'_> {
             return Err(refusal.into());
         }
         tracked.derive(rb, self.world.colliders)?;
+        if tracked.is_in_lockstep_blow() {
+            return Err(Refusal::Blow.into());
+        }
         match self.settings.resolve {
             Resolve::QuasiStatic | Resolve::Lockstep => return Err(Refusal::Asked.into()),
             Resolve::Auto if self.rests(rb, tracked) => return Err(Refusal::Resting.into()),
@@ -93,7 +96,7 @@ impl Scene<'_> {
         let is_new = known.is_none();
         let surfaces = known.map_or(&tracked.near, |live| &live.surfaces).clone();
         let Some(&anchor) = surfaces.first() else { return Ok(None) };
-        let Some(lie) = self.lies.iter().find(|lie| lie.id == anchor) else { return Ok(None) };
+        let Some(lie) = Lie::find(self.lies, anchor) else { return Ok(None) };
         let (frame, bounds) = (lie.pose, self.surfaces[anchor.0].bounds);
         let course = Course::of(rb, tracked, &scalar::vector(self.world.gravity));
         let mut state = shadow::read(rb, tracked.shadow.as_ref(), &frame);

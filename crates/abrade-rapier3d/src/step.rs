@@ -7,7 +7,7 @@ use rapier::geometry::ColliderSet;
 use rapier::pipeline::{EventHandler, PhysicsHooks, PhysicsWorld};
 
 use crate::error::WearError;
-use crate::gate::{self, Course};
+use crate::gate::{self, Course, Lie};
 use crate::glance::Span;
 use crate::guard::WearGuard;
 use crate::observer::WearObserver;
@@ -89,7 +89,7 @@ impl WearWorld {
                 };
                 self.resolve(self.candidates[at], &world, until, observer);
             }
-            if !self.held.is_empty() {
+            if !(self.held.is_empty() && self.sleepers.is_empty()) {
                 self.before.note(world.bodies, &self.bodies);
             }
             self.steer(&mut world, &gravity);
@@ -141,6 +141,7 @@ impl WearWorld {
             tracked.shadow = steered.settle(rb);
             steer::carry_colliders(rb, world.colliders);
         }
+        self.hold_the_woken(&world);
         if !self.held.is_empty() {
             self.settle_held(&mut world, observer);
         }
@@ -163,6 +164,7 @@ impl WearWorld {
         self.integrated.clear();
         self.steered.clear();
         self.held.clear();
+        self.sleepers.clear();
         for handle in self.candidates.drain(..) {
             let tracked = Tracked::slot(&mut self.bodies, handle);
             (tracked.course, tracked.ahead) = (None, None);
@@ -201,22 +203,46 @@ impl WearWorld {
         let span = Span { dt: self.current.sight, gravity: gravity.norm() };
         self.glances.pick(world.bodies, world.colliders, &self.lies, span, &mut picked);
         for &handle in &picked {
-            let Some(rb) = world.bodies.get(handle).filter(|rb| gate::takes_part(rb)) else {
+            let Some(rb) = world.bodies.get(handle) else { continue };
+            if gate::may_wake(rb) {
+                self.look_at_sleeper(handle, rb, world.colliders, gravity);
+            }
+            if !gate::takes_part(rb) {
                 continue;
-            };
+            }
             self.counters.looked += 1;
             if Tracked::slot(&mut self.bodies, handle).is_stale(rb, world.colliders)
                 && let Some(rb) = world.bodies.get_mut(handle)
             {
                 // Colliders and extra masses that are new count from Rapier's next step on.
                 rb.recompute_mass_properties_from_colliders(world.colliders);
-                Tracked::slot(&mut self.bodies, handle).refresh(rb, world.colliders);
+                let tracked = Tracked::slot(&mut self.bodies, handle);
+                tracked.refresh(rb, world.colliders);
+                tracked.leave(&mut self.surfaces, &mut self.closed, &mut self.events);
             }
             let Some(rb) = world.bodies.get(handle) else { continue };
             self.look_at(handle, rb, world.colliders, gravity);
             self.glances.keep(handle, rb, Tracked::slot(&mut self.bodies, handle));
         }
         self.picked = picked;
+    }
+
+    /// Takes note of a body that sleeps on a surface: something may wake it in the step.
+    fn look_at_sleeper(
+        &mut self,
+        handle: RigidBodyHandle,
+        rb: &RigidBody,
+        colliders: &ColliderSet,
+        gravity: &Vector3<f64>,
+    ) {
+        let surfaces = &self.surfaces;
+        let tracked = Tracked::slot(&mut self.bodies, handle);
+        let course = Course::of(rb, tracked, gravity);
+        course.near(&self.lies, surfaces, self.current.sight, &mut tracked.near);
+        tracked.near.retain(|id| gate::feels(rb, &surfaces[id.0], colliders));
+        if !tracked.near.is_empty() && tracked.derive(rb, colliders).is_ok() {
+            self.sleepers.push(handle);
+        }
     }
 
     /// Makes a body a candidate if it comes near a surface, else ends its encounter.
@@ -233,11 +259,13 @@ impl WearWorld {
         let course = Course::of(rb, tracked, gravity);
         course.near(&self.lies, surfaces, self.current.sight, &mut tracked.near);
         tracked.near.retain(|id| gate::feels(rb, &surfaces[id.0], colliders));
-        if lost || tracked.near.is_empty() {
+        if lost {
             self.closed += tracked.end(&mut self.events);
         }
-        let Some(&first) = tracked.near.first() else { return };
-        let Some(lie) = self.lies.iter().find(|lie| lie.id == first) else { return };
+        let Some(&first) = tracked.near.first() else {
+            return tracked.leave(&mut self.surfaces, &mut self.closed, &mut self.events);
+        };
+        let Some(lie) = Lie::find(&self.lies, first) else { return };
         let track = course.track_before(&lie.pose, &surfaces[first.0].bounds, dt);
         tracked.course = Some(Box::new(track.placed_by(&lie.pose)));
         let reach = course.reach(&Isometry3::identity(), dt);

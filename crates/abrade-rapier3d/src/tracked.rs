@@ -225,6 +225,33 @@ impl Tracked {
         self.hand_to(Resolver::Micro, None, events);
     }
 
+    /// Ends what QuasiStatic presses it against, but for `kept`.
+    pub fn let_go_but(
+        &mut self,
+        kept: &[SurfaceId],
+        surfaces: &mut [WornCollider],
+        closed: &mut Ledger,
+    ) {
+        for pressing in self.pressing.extract_if(.., |p| !kept.contains(&p.surface)) {
+            let mut pressing = pressing;
+            *closed += pressing.end(surfaces);
+        }
+    }
+
+    /// It is away from every surface, or another body than it was: whatever is open ends.
+    pub fn leave(
+        &mut self,
+        surfaces: &mut [WornCollider],
+        closed: &mut Ledger,
+        events: &mut Vec<WearEvent>,
+    ) {
+        *closed += self.end(events);
+        self.let_go(surfaces, closed);
+        Contact::end(&mut self.contact, self.handle, events);
+        (self.wearer, self.friction) = (None, 0.0);
+        self.borne.clear();
+    }
+
     /// Books a step of its contact.
     pub fn book(
         &mut self,

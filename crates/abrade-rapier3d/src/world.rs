@@ -57,6 +57,8 @@ pub struct WearWorld {
     pub(crate) steered: Vec<Steered>,
     /// Bodies that Rapier keeps in hand through this step.
     pub(crate) held: Vec<Held>,
+    /// Bodies that sleep on a surface.
+    pub(crate) sleepers: Vec<RigidBodyHandle>,
     /// States before this step, if any body is held.
     pub(crate) before: Before,
     pub(crate) driven: Vec<DrivenBody>,

@@ -167,6 +167,7 @@ impl Carried {
         end: &State,
         dt: f64,
     ) -> Result<Met, PhysicsError> {
+        self.integrator.fits(surfaces)?;
         let velocity = (end.position - body.state.position) / dt;
         let spin = (end.rotation * body.state.rotation.inverse()).scaled_axis() / dt;
         let course = Course { velocity, spin, dt };
@@ -199,6 +200,7 @@ impl Carried {
         body: &mut Body,
         surfaces: &mut [Placed<'_>],
     ) -> Result<(), PhysicsError> {
+        self.integrator.fits(surfaces)?;
         let Some(Pending { trial, end, dt, allowed, damping }) = self.pending.take() else {
             return Ok(());
         };
@@ -217,11 +219,6 @@ impl Carried {
             self.integrator.end_contact(surfaces);
         }
         surfaces.iter().try_for_each(|placed| engulfed(placed, &body.state))
-    }
-
-    /// Ends the contact: overhangs break off.
-    pub fn end(&mut self, surfaces: &mut [Placed<'_>]) {
-        self.integrator.end_contact(surfaces);
     }
 
     /// True while a node carries force.

@@ -71,7 +71,7 @@ impl Integrator {
         };
         let (mut low, mut high) = (bracket(self, -1.0)?, bracket(self, 1.0)?);
         for count in 0..LOAD_STEPS {
-            // Regula falsi in its Illinois form, bisection where it makes no way.
+            // Regula falsi, and every fourth time bisection.
             let share = low[1] / (low[1] - high[1]);
             let share = if count % 4 == 3 || !share.is_finite() { 0.5 } else { share };
             let middle = low[0] + share * (high[0] - low[0]);
@@ -184,6 +184,7 @@ impl Pressed {
         hold: &Hold,
         observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
+        self.integrator.fits(placed)?;
         let load = hold.load.norm();
         let Some(down) = hold.load.try_normalize(0.0).filter(|_| load.is_finite()) else {
             return Ok(Advance { time: hold.duration, ..Advance::default() });

@@ -13,6 +13,7 @@ use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{Collider, ColliderHandle};
 use rapier::math::Pose;
 
+use crate::derive::is_solid;
 use crate::event::Refusal;
 use crate::held::Before;
 use crate::lockstep::members::Members;
@@ -72,11 +73,16 @@ impl Copy {
             true => RigidBodyBuilder::dynamic(),
             false => RigidBodyBuilder::kinematic_velocity_based(),
         };
+        // A kinematic body goes as it went in the step.
+        let (velocity, spin) = match rb.is_dynamic() {
+            true => (state.velocity, state.spin),
+            false => (scalar::vector(rb.linvel()), scalar::vector(rb.angvel())),
+        };
         let locked = LockedAxes::from_bits_truncate(rb.locked_axes().bits());
         let builder = builder
             .pose(pose)
-            .linvel(to_vector(&state.velocity))
-            .angvel(to_vector(&state.spin))
+            .linvel(to_vector(&velocity))
+            .angvel(to_vector(&spin))
             .gravity_scale(n(rb.gravity_scale()))
             .linear_damping(n(rb.linear_damping()))
             .angular_damping(n(rb.angular_damping()))
@@ -134,10 +140,6 @@ impl Copy {
         }
         Ok(())
     }
-}
-
-fn is_solid(collider: &Collider) -> bool {
-    collider.is_enabled() && !collider.is_sensor()
 }
 
 /// Mass properties of a body with the centre of mass `com` in its frame: the embedder's where it

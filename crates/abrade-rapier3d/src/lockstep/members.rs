@@ -1,7 +1,7 @@
 //! Who belongs to an island: everything that is jointed to a member, or could meet
 //! one in the step.
 
-use rapier::dynamics::RigidBodyHandle;
+use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::ColliderHandle;
 
 use crate::event::Refusal;
@@ -19,25 +19,30 @@ pub(crate) struct Members {
     pub standing: Vec<ColliderHandle>,
 }
 
-/// The island around `start`.
+/// The island around `start`, of bodies that are `is_free` for it. Kinematic bodies belong to it
+/// and pass nothing on.
 pub(crate) fn gather(
     start: RigidBodyHandle,
     world: &WorldView<'_>,
     near: &Neighbours,
+    is_free: impl Fn(RigidBodyHandle) -> bool,
 ) -> Result<Members, Refusal> {
     let mut members = Members { bodies: vec![start], standing: Vec::new() };
     let mut at = 0;
     while at < members.bodies.len() {
         let body = members.bodies[at];
         at += 1;
+        if !world.bodies.get(body).is_some_and(RigidBody::is_dynamic) {
+            continue;
+        }
         if world.multibody_joints.rigid_body_link(body).is_some() {
             return Err(Refusal::Multibody);
         }
         for (first, second, _, _) in world.impulse_joints.attached_enabled_joints(body) {
-            members.add_body(if first == body { second } else { first }, world);
+            members.add_body(if first == body { second } else { first }, world, &is_free);
         }
         near.show_near(body, world, |collider, other| {
-            members.add_met(collider, other, world);
+            members.add_met(collider, other, world, &is_free);
         });
         if members.bodies.len() > LIMIT {
             return Err(Refusal::Crowd { limit: LIMIT });
@@ -62,25 +67,31 @@ impl Members {
         }
     }
 
-    fn add_body(&mut self, body: RigidBodyHandle, world: &WorldView<'_>) {
+    fn add_body(
+        &mut self,
+        body: RigidBodyHandle,
+        world: &WorldView<'_>,
+        is_free: &impl Fn(RigidBodyHandle) -> bool,
+    ) {
         let moves = world.bodies.get(body).is_some_and(|rb| rb.is_enabled() && !rb.is_fixed());
-        if moves && !self.bodies.contains(&body) {
+        if moves && is_free(body) && !self.bodies.contains(&body) {
             self.bodies.push(body);
         }
     }
 
-    /// Adds what a collider belongs to. Kinematic bodies pass nothing on.
+    /// Adds what a collider belongs to.
     fn add_met(
         &mut self,
         collider: ColliderHandle,
         body: Option<RigidBodyHandle>,
         world: &WorldView<'_>,
+        is_free: &impl Fn(RigidBodyHandle) -> bool,
     ) {
-        let dynamic = |body: &RigidBodyHandle| {
-            world.bodies.get(*body).is_some_and(|rb| rb.is_dynamic() && rb.is_enabled())
+        let fixed = |body: &RigidBodyHandle| {
+            world.bodies.get(*body).is_none_or(|rb| rb.is_fixed() || !rb.is_enabled())
         };
-        match body.filter(dynamic) {
-            Some(body) => self.add_body(body, world),
+        match body.filter(|body| !fixed(body)) {
+            Some(body) => self.add_body(body, world, is_free),
             None if !self.standing.contains(&collider) => self.standing.push(collider),
             None => {}
         }

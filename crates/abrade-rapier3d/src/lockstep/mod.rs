@@ -13,12 +13,12 @@ use std::collections::BTreeMap;
 
 use abrade::{Body, PhysicsError, Surface};
 use abrade_lockstep::rapier as fine;
-use abrade_lockstep::{Done, Island, IslandSettings, Wearer};
+use abrade_lockstep::{Done, Island, IslandSettings, Proxy, Wearer};
 use nalgebra::{Isometry3, Vector3};
 use rapier::dynamics::RigidBodyHandle;
-use rapier::geometry::ColliderHandle;
 
 use crate::event::Refusal;
+use crate::gate::Lie;
 use crate::held::Held;
 pub(crate) use crate::lockstep::cast::meeting;
 use crate::lockstep::copy::copy;
@@ -57,6 +57,8 @@ pub(crate) struct Share {
     pub impulse: Vector3<f64>,
     pub contact_time: f64,
     pub touches: bool,
+    /// Load that it goes on to bear [N].
+    pub bears: f64,
     /// Volume displaced on each surface [m3].
     pub worn: Vec<(SurfaceId, f64)>,
 }
@@ -80,19 +82,20 @@ impl WearWorld {
     ) -> Result<(Vec<Share>, Done), Lost> {
         let held: Vec<&Held> = held.iter().filter(|h| members.holds(h.body)).collect();
         let ids = surfaces_of(&held);
-        let proxies: Vec<ColliderHandle> = ids.iter().map(|id| self.surfaces[id.0].proxy).collect();
-        proxies.iter().for_each(|proxy| members.add_standing(*proxy));
+        // Members may stand on other surfaces, which do not wear in the island.
+        self.surfaces.iter().for_each(|worn| members.add_standing(worn.proxy));
         let copy = copy(&members, world, &self.before, &self.bodies)?;
         let settings = self.settings.encounter();
         let identity = Isometry3::identity();
         let lies = &self.lies;
-        let pose = |id: &SurfaceId| lies.iter().find(|lie| lie.id == *id).map(|lie| lie.pose);
+        let pose = |id: &SurfaceId| Lie::find(lies, *id).map(|lie| lie.pose);
         let poses: Vec<_> = ids.iter().filter_map(pose).collect();
         // Worn by way of leaves: nothing is, if the island comes to nothing.
         let leaf = |id: &SurfaceId| Surface::leaf(&self.surfaces[id.0].surface);
         let mut leaves: Vec<Surface> = ids.iter().map(leaf).collect();
         let mut placed = placed(leaves.iter_mut(), &poses);
         let mut wearers = Vec::new();
+        let mut wearing = Vec::new();
         for held in &held {
             let tracked = Tracked::slot(&mut self.bodies, held.body);
             let inner = copy.bodies.get(&held.body.into_raw_parts());
@@ -100,20 +103,32 @@ impl WearWorld {
             let (Some(state), Some(body)) = (self.before.of(held.body), tracked.body()) else {
                 continue;
             };
+            let uses = places(&held.surfaces, &ids);
             let body = Body { state: *state, ..body.clone() };
             let loads = gate::loads(rb, &scalar::vector(world.gravity), &identity);
+            // Springs go on from where they were left, whatever velocity the embedder gave since.
             let known = tracked.wearer.take().filter(|(known, wearer)| {
-                *known == ids && wearer.body.state == body.state && !wearer.rests()
+                let was = &wearer.body.state;
+                let same = was.position == state.position && was.rotation == state.rotation;
+                same && *known == held.surfaces && !wearer.rests()
             });
             let wearer = match known {
-                Some((_, wearer)) => wearer.resumed(*inner, loads),
-                None => Wearer::new(*inner, body, loads, &placed, settings)
+                Some((_, mut wearer)) => {
+                    wearer.body.state = *state;
+                    wearer.resumed(*inner, loads, uses)
+                }
+                None => Wearer::new(*inner, body, loads, &mut placed, uses, settings)
                     .map_err(|error| Lost::Failed(held.body, error))?,
             };
             wearers.push(wearer);
+            wearing.push(*held);
         }
-        let inner = |proxy: &ColliderHandle| copy.standing.get(&proxy.into_raw_parts()).copied();
-        let proxies = proxies.iter().filter_map(inner).collect();
+        let proxies = ids.iter().filter_map(|id| {
+            let worn = &self.surfaces[id.0];
+            let collider = *copy.standing.get(&worn.proxy.into_raw_parts())?;
+            Some(Proxy { collider, friction: worn.surface.laws().material.friction })
+        });
+        let proxies = proxies.collect();
         let rest_load = held.iter().map(|h| h.bore).sum();
         let step_limit = self.settings.step_limit;
         let budget = match self.settings.resolve {
@@ -136,52 +151,55 @@ impl WearWorld {
             self.surfaces[id.0].owned().apply(changes);
         }
         self.counters.node_evaluations += island.node_evaluations();
-        hand_back(&island, &copy.bodies, &members, world);
-        Ok((self.settle_island(island, &held, &ids, world), done))
+        self.hand_back(&island, &copy.bodies, &members, world);
+        Ok((self.settle_island(island, &wearing), done))
     }
 
-    /// Books what the island did to its wearing bodies, and keeps their springs.
-    fn settle_island(
-        &mut self,
-        island: Island,
-        held: &[&Held],
-        ids: &[SurfaceId],
-        world: &mut WorldView<'_>,
-    ) -> Vec<Share> {
+    /// Sums up what the island did to its `wearing` bodies, and keeps their springs.
+    fn settle_island(&mut self, island: Island, wearing: &[&Held]) -> Vec<Share> {
         let mut shares = Vec::new();
-        for (wearer, held) in island.into_wearers().into_iter().zip(held) {
-            let tracked = Tracked::slot(&mut self.bodies, held.body);
-            if let Some(rb) = world.bodies.get_mut(held.body) {
-                let state = wearer.body.state;
-                tracked.shadow = Some(shadow::write(rb, Isometry3::identity(), state));
-            }
+        for (wearer, held) in island.into_wearers().into_iter().zip(wearing) {
             self.closed += wearer.ledger_gained();
             shares.push(Share {
                 body: held.body,
                 impulse: wearer.impulse(),
                 contact_time: wearer.contact_time(),
-                touches: wearer.contact().in_contact() || wearer.rests(),
-                worn: ids.iter().copied().zip(wearer.worn().iter().copied()).collect(),
+                touches: wearer.contact().in_contact(),
+                // What bears a load at rest is no blow for the next step.
+                bears: if wearer.rests() { held.bore } else { 0.0 },
+                worn: held.surfaces.iter().copied().zip(wearer.worn().iter().copied()).collect(),
             });
-            tracked.wearer = Some((ids.to_vec(), wearer));
+            let tracked = Tracked::slot(&mut self.bodies, held.body);
+            tracked.wearer = Some((held.surfaces.clone(), wearer));
         }
         shares
     }
-}
 
-/// Writes the members' states over what Rapier made of them.
-fn hand_back(
-    island: &Island,
-    inner: &BTreeMap<(u32, u32), fine::dynamics::RigidBodyHandle>,
-    members: &Members,
-    world: &mut WorldView<'_>,
-) {
-    for &body in &members.bodies {
-        let state = inner.get(&body.into_raw_parts()).and_then(|inner| island.state(*inner));
-        let (Some(rb), Some(state)) = (world.bodies.get_mut(body), state) else { continue };
-        if rb.is_dynamic() {
-            shadow::write(rb, Isometry3::identity(), state);
+    /// Writes the members' states over what Rapier made of them.
+    fn hand_back(
+        &mut self,
+        island: &Island,
+        inner: &BTreeMap<(u32, u32), fine::dynamics::RigidBodyHandle>,
+        members: &Members,
+        world: &mut WorldView<'_>,
+    ) {
+        for &body in &members.bodies {
+            let state = inner.get(&body.into_raw_parts()).and_then(|inner| island.state(*inner));
+            let (Some(rb), Some(state)) = (world.bodies.get_mut(body), state) else { continue };
+            if !rb.is_dynamic() {
+                continue;
+            }
+            if rb.is_sleeping() && (state.velocity.norm() > 0.0 || state.spin.norm() > 0.0) {
+                rb.wake_up(true);
+            }
+            let shadow = shadow::write(rb, Isometry3::identity(), state);
+            Tracked::slot(&mut self.bodies, body).shadow = Some(shadow);
             steer::carry_colliders(rb, world.colliders);
         }
     }
+}
+
+/// The places of `own` among `ids`.
+fn places(own: &[SurfaceId], ids: &[SurfaceId]) -> Vec<usize> {
+    own.iter().filter_map(|id| ids.iter().position(|other| other == id)).collect()
 }

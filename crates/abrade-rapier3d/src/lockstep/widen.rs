@@ -4,6 +4,7 @@ use abrade_lockstep::rapier as fine;
 use abrade_lockstep::{to_pose, to_vector};
 use fine::dynamics::{JointAxesMask, JointLimits, JointMotor, MotorModel};
 use fine::geometry::{ColliderBuilder, Group, InteractionGroups, InteractionTestMode, SharedShape};
+use fine::parry::shape::TriMeshFlags;
 use rapier::dynamics::{CoefficientCombineRule, GenericJoint};
 use rapier::geometry::Collider;
 use rapier::math::{Pose, Vector};
@@ -42,12 +43,14 @@ pub(crate) fn shape(shape: &dyn Shape) -> Option<SharedShape> {
         }
         TypedShape::TriMesh(s) => {
             let points = s.vertices().iter().map(|p| point(*p)).collect();
-            SharedShape::trimesh(points, s.indices().to_vec()).ok()?
+            let flags = TriMeshFlags::from_bits_truncate(s.flags().bits());
+            SharedShape::trimesh_with_flags(points, s.indices().to_vec(), flags).ok()?
         }
         TypedShape::HeightField(s) => {
             let (points, indices) = s.to_trimesh();
             let points = points.iter().map(|p| point(*p)).collect();
-            SharedShape::trimesh(points, indices).ok()?
+            SharedShape::trimesh_with_flags(points, indices, TriMeshFlags::FIX_INTERNAL_EDGES)
+                .ok()?
         }
         TypedShape::Compound(s) => {
             let part = |(at, part): &(Pose, rapier::geometry::SharedShape)| {

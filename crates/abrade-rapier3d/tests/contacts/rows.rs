@@ -58,10 +58,10 @@ pub fn loaded_ball(case: Case) -> Outcome {
 }
 
 /// A block of `density` that comes down at 2 m/s on a ball that lies on the plate.
-fn block_on_ball(case: Case, density: f64) -> Outcome {
+fn block_on_ball(case: Case, density: f64, sleeps: bool) -> Outcome {
     let plate = Plate { length: 20e-3, width: 10e-3, pitch: 0.1e-3, hardness: 1.7e9, young: 200e9 };
     let mut rig = Rig::new(case, &plate, down(), 0.01);
-    let ball = rig.body(Vector3::z() * 5e-3);
+    let ball = rig.body(Vector3::z() * 5e-3).sleeping(sleeps);
     rig.ball(ball, 5e-3, 7800.0);
     let block = rig.body(Vector3::z() * 0.1).linvel(vector(0.0, 0.0, -2.0));
     let block = rig.block(block, [10e-3, 10e-3, 5e-3], density);
@@ -70,11 +70,15 @@ fn block_on_ball(case: Case, density: f64) -> Outcome {
 }
 
 pub fn light_block_on_ball(case: Case) -> Outcome {
-    block_on_ball(case, 1000.0)
+    block_on_ball(case, 1000.0, false)
 }
 
 pub fn heavy_block_on_ball(case: Case) -> Outcome {
-    block_on_ball(case, 20_000.0)
+    block_on_ball(case, 20_000.0, false)
+}
+
+pub fn heavy_block_on_sleeping_ball(case: Case) -> Outcome {
+    block_on_ball(case, 20_000.0, true)
 }
 
 /// Two balls that a fixed joint holds 8 mm apart, tilted, at 20 m/s.

@@ -107,6 +107,20 @@ rows! {
     a_rolling_clump: 7,
 }
 
+/// Fails for a body that wears nothing because it slept when it was struck.
+#[test]
+fn a_sleeping_ball_is_struck_like_one_that_is_awake() {
+    for (dt, volume, speed) in STEPS {
+        let origin = Vector3::zeros();
+        let case = Case { dt, origin, resolve: Resolve::Auto, accuracy: 1e-3 };
+        let awake = rows::heavy_block_on_ball(case);
+        let asleep = rows::heavy_block_on_sleeping_ball(case);
+        let errors = [asleep.volume / awake.volume - 1.0, asleep.speed / awake.speed - 1.0];
+        println!("{dt:.4} s: {errors:?}, {:?}", asleep.counters);
+        assert!(errors[0].abs() <= volume && errors[1].abs() <= speed, "{errors:?} at {dt} s");
+    }
+}
+
 /// Fails for a resting ball that wears, creeps or stays awake.
 #[test]
 fn a_resting_ball_wears_nothing_and_sleeps() {
