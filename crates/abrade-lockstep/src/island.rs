@@ -2,7 +2,6 @@
 
 use abrade::{Met, PhysicsError, Placed, State};
 use rapier::dynamics::{GenericJoint, RigidBody, RigidBodyHandle};
-use rapier::geometry::{ColliderHandle, ContactPair, NarrowPhase};
 use rapier::math::Vector;
 use rapier::pipeline::{ActiveHooks, PhysicsWorld};
 
@@ -35,8 +34,6 @@ pub struct IslandSettings {
     pub budget: u64,
     /// Normal speed below which a body that rings on its springs rests [m/s]; zero for never.
     pub rest_speed: f64,
-    /// Load that contacts at rest bore before [N].
-    pub rest_load: f64,
 }
 
 /// What an advance did.
@@ -56,8 +53,6 @@ pub struct Island {
     pairs: Pairs,
     rewind: Rewind,
     settings: IslandSettings,
-    /// Load that the contacts at rest bear, in the mean over a coarse step [N].
-    rest_load: f64,
     /// Longest step [s].
     coarsest: f64,
     /// It has not taken a step yet.
@@ -95,7 +90,6 @@ impl Island {
         // No time passes: bodies get their masses, joints their places.
         world.integration_parameters.dt = 0.0;
         world.step_with_events(&filter, &());
-        let (rest_load, coarsest) = (settings.rest_load, 0.0);
         Self {
             world,
             wearers,
@@ -104,8 +98,7 @@ impl Island {
             pairs,
             rewind,
             settings,
-            rest_load,
-            coarsest,
+            coarsest: 0.0,
             is_new: true,
             is_out: false,
         }
@@ -249,8 +242,7 @@ impl Island {
 
     /// Lets every surface follow, or none.
     fn follow(&mut self, surfaces: &mut [Placed<'_>], h: f64) -> Result<Met, PhysicsError> {
-        let impulse = self.rest_impulse();
-        if self.is_struck(impulse, h) {
+        if self.wearers.iter().any(|wearer| self.is_struck(wearer, h)) {
             self.wearers.iter_mut().for_each(|w| w.calm.wake());
             self.mark();
             return Ok(Met::TooLong(0.5 * h));
@@ -263,38 +255,25 @@ impl Island {
                 return Ok(Met::TooLong(shorter));
             }
         }
+        let share = (h / self.coarsest).min(1.0);
         for wearer in self.wearers.iter_mut().filter(|w| w.calm.rests) {
             wearer.body.state = end(wearer).unwrap_or(wearer.body.state);
+            let load = rest_impulse(world, &self.filter.proxies, wearer.handle) / h;
+            wearer.bears += (load - wearer.bears) * share;
         }
-        self.rest_load += (impulse / h - self.rest_load) * (h / self.coarsest).min(1.0);
         let mut on_springs = self.wearers.iter_mut().filter(|w| !w.calm.rests);
         on_springs.try_for_each(|w| w.follow(surfaces, h))?;
         Ok(Met::Fits)
     }
 
-    /// Impulse of the wearing bodies' contacts at rest in the last step [N s].
-    fn rest_impulse(&self) -> f64 {
-        let narrow: &NarrowPhase = &self.world.narrow_phase;
-        let body = |collider: ColliderHandle| {
-            self.world.colliders.get(collider).and_then(|collider| collider.parent())
-        };
-        let rests = |pair: &&ContactPair| {
-            let colliders = [pair.collider1, pair.collider2];
-            self.filter.rest(colliders, colliders.map(body)) == Some(true)
-        };
-        let of = |proxy: &Proxy| -> f64 {
-            let pairs = narrow.contact_pairs_with(proxy.collider).filter(rests);
-            pairs.map(|pair| pair.total_impulse().length()).sum()
-        };
-        self.filter.proxies.iter().map(of).sum()
-    }
-
-    /// Do contacts at rest carry an impulse, in a step of `h` [s], that resting does not explain?
-    fn is_struck(&self, impulse: f64, h: f64) -> bool {
-        let resting = self.wearers.iter().filter(|w| w.calm.rests);
-        let mass: f64 = resting.map(|w| w.body.inertia.mass).sum();
-        let jolt = mass * self.settings.rest_speed / self.coarsest;
-        mass > 0.0 && !self.is_out && impulse > (STRUCK * self.rest_load + jolt) * h
+    /// Does a body at rest bear an impulse, in a step of `h` [s], that resting does not explain?
+    fn is_struck(&self, wearer: &Wearer, h: f64) -> bool {
+        if !wearer.calm.rests || self.is_out {
+            return false;
+        }
+        let jolt = wearer.body.inertia.mass * self.settings.rest_speed / self.coarsest;
+        let impulse = rest_impulse(&self.world, &self.filter.proxies, wearer.handle);
+        impulse > (STRUCK * wearer.bears + jolt) * h
     }
 
     /// Puts bodies that only ring to rest.
@@ -355,4 +334,13 @@ impl Island {
     pub fn into_wearers(self) -> Vec<Wearer> {
         self.wearers
     }
+}
+
+/// Impulse of a body's contacts with proxies in the last step [N s].
+fn rest_impulse(world: &PhysicsWorld, proxies: &[Proxy], body: RigidBodyHandle) -> f64 {
+    let colliders = world.bodies.get(body).map_or(&[][..], RigidBody::colliders);
+    let pairs = colliders.iter().flat_map(|own| {
+        proxies.iter().filter_map(|proxy| world.narrow_phase.contact_pair(proxy.collider, *own))
+    });
+    pairs.map(|pair| pair.total_impulse().length()).sum()
 }

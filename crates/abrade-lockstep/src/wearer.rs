@@ -16,6 +16,8 @@ pub struct Wearer {
     pub body: Body,
     /// What acts on it beside contacts and joints.
     pub loads: Loads,
+    /// Load that it bears while it rests, in the mean over a coarse step [N].
+    pub bears: f64,
     pub(crate) contact: Carried,
     pub(crate) calm: Calm,
     /// Present answer of the surfaces.
@@ -66,6 +68,7 @@ impl Wearer {
             handle,
             body,
             loads,
+            bears: 0.0,
             calm: Calm::default(),
             grip: Grip::default(),
             impulse: Vector3::zeros(),

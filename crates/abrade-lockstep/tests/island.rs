@@ -9,7 +9,7 @@ use abrade_lockstep::{Island, IslandSettings, Proxy, Wearer, to_pose, to_vector}
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 
 const FREE: IslandSettings =
-    IslandSettings { step_limit: 1_000_000, budget: u64::MAX, rest_speed: 0.0, rest_load: 0.0 };
+    IslandSettings { step_limit: 1_000_000, budget: u64::MAX, rest_speed: 0.0 };
 
 fn plate(pitch: f64) -> Surface {
     let material = Material {

@@ -112,7 +112,7 @@ impl WearWorld {
                 let same = was.position == state.position && was.rotation == state.rotation;
                 same && *known == held.surfaces && !wearer.rests()
             });
-            let wearer = match known {
+            let mut wearer = match known {
                 Some((_, mut wearer)) => {
                     wearer.body.state = *state;
                     wearer.resumed(*inner, loads, uses)
@@ -120,6 +120,7 @@ impl WearWorld {
                 None => Wearer::new(*inner, body, loads, &mut placed, uses, settings)
                     .map_err(|error| Lost::Failed(held.body, error))?,
             };
+            wearer.bears = held.bore;
             wearers.push(wearer);
             wearing.push(*held);
         }
@@ -129,13 +130,12 @@ impl WearWorld {
             Some(Proxy { collider, friction: worn.surface.laws().material.friction })
         });
         let proxies = proxies.collect();
-        let rest_load = held.iter().map(|h| h.bore).sum();
         let step_limit = self.settings.step_limit;
         let budget = match self.settings.resolve {
             Resolve::Lockstep => u64::MAX,
             _ => BUDGET / members.bodies.len().max(1) as u64,
         };
-        let settings = IslandSettings { step_limit, budget, rest_speed, rest_load };
+        let settings = IslandSettings { step_limit, budget, rest_speed };
         let mut island = Island::new(copy.world, wearers, proxies, settings);
         let dt = self.current.dt;
         let may_gain = self.settings.resolve == Resolve::Lockstep || island.is_driven();
@@ -165,8 +165,7 @@ impl WearWorld {
                 impulse: wearer.impulse(),
                 contact_time: wearer.contact_time(),
                 touches: wearer.contact().in_contact(),
-                // What bears a load at rest is no blow for the next step.
-                bears: if wearer.rests() { held.bore } else { 0.0 },
+                bears: bears(&wearer),
                 worn: held.surfaces.iter().copied().zip(wearer.worn().iter().copied()).collect(),
             });
             let tracked = Tracked::slot(&mut self.bodies, held.body);
@@ -196,6 +195,15 @@ impl WearWorld {
             Tracked::slot(&mut self.bodies, body).shadow = Some(shadow);
             steer::carry_colliders(rb, world.colliders);
         }
+    }
+}
+
+/// Load that a wearing body goes on to bear [N]: in the next step it is no blow.
+fn bears(wearer: &Wearer) -> f64 {
+    match (wearer.rests(), wearer.is_slow()) {
+        (true, _) => wearer.bears,
+        (false, true) => wearer.contact().force().norm(),
+        (false, false) => 0.0,
     }
 }
 
