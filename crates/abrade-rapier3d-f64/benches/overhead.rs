@@ -3,7 +3,8 @@
 //!
 //! `cargo bench -p abrade-rapier3d-f64 --bench overhead` prints, for a crowd far from the plate
 //! and one right above it, the median of the ratios of paired runs, and the ratio of the least
-//! times, which other work on the machine lengthens least.
+//! times, which other work on the machine lengthens least; then the least time of a step with one
+//! ball that lies on the plate and may not sleep, alone and in a crowd.
 
 use std::time::{Duration, Instant};
 
@@ -27,6 +28,28 @@ fn main() {
             println!("{count:>8} {height:>5} m {step:>8.1} {median:>9.4} {of_least:>9.4}");
         }
     }
+    println!("one resting ball: {:.1} us/step", resting_ball(0));
+    println!("with 1000 bodies far away: {:.1} us/step", resting_ball(1000));
+}
+
+/// Least time of a step in which one ball rests on the plate, and a crowd is far away [us].
+fn resting_ball(crowd_size: usize) -> f64 {
+    let mut world = crowd(crowd_size, 50.0);
+    for (_, rb) in world.bodies.iter_mut() {
+        rb.set_gravity_scale(0.0, false);
+    }
+    world.gravity = Vector::Z * -9.81;
+    let mut wear = plate(&mut world);
+    let body = RigidBodyBuilder::dynamic().translation(Vector::Z * RADIUS).can_sleep(false);
+    world.insert(body, ColliderBuilder::ball(RADIUS));
+    let mut step = || {
+        timed(|| {
+            wear.step(&mut world, &(), &()).expect("a step at rest");
+        })
+    };
+    let least = (0..PAIRS).map(|_| step()).min().unwrap_or_default();
+    assert!(wear.counters().quasi_static > 0 && wear.counters().steps == 0);
+    least.as_secs_f64() * 1e6 / STEPS as f64
 }
 
 /// Time of a step without the plug-in [us], and ratios with / without.

@@ -19,6 +19,8 @@ pub(crate) struct Held {
     pub surfaces: Vec<SurfaceId>,
     /// Why Micro did not take it.
     pub reason: Refusal,
+    /// Nothing else could meet it in the step.
+    pub is_alone: bool,
     /// It will strike a surface, or was seen to strike one.
     pub strikes: bool,
     /// Speed below which an approach is rest [m/s].
@@ -34,14 +36,26 @@ pub(crate) struct Before {
 }
 
 impl Before {
-    /// Takes note of every body that moves, exactly where that is known.
-    pub fn note(&mut self, bodies: &RigidBodySet, tracked: &[Option<Tracked>]) {
+    /// Takes note of the `held` bodies, exactly where that is known; of every body that moves, if
+    /// one of them could meet another, or something `may_wake`.
+    pub fn note(
+        &mut self,
+        bodies: &RigidBodySet,
+        tracked: &[Option<Tracked>],
+        held: &[Held],
+        may_wake: bool,
+    ) {
         self.states.clear();
         let exact = |handle: RigidBodyHandle, rb: &RigidBody| {
-            let slot = tracked.get(handle.into_raw_parts().0 as usize).and_then(Option::as_ref);
-            let shadow = slot.filter(|t| t.handle == handle).and_then(|t| t.shadow.as_ref());
+            let shadow = Tracked::find(tracked, handle).and_then(|t| t.shadow.as_ref());
             shadow::read(rb, shadow, &nalgebra::Isometry3::identity())
         };
+        if held.iter().all(|held| held.is_alone) && !may_wake {
+            let own = held.iter().filter_map(|held| Some((held.body, bodies.get(held.body)?)));
+            self.states.extend(own.map(|(handle, rb)| (handle, exact(handle, rb))));
+            self.states.sort_unstable_by_key(|(handle, _)| handle.into_raw_parts());
+            return;
+        }
         let moving = bodies.iter().filter(|(_, rb)| !rb.is_fixed());
         self.states.extend(moving.map(|(handle, rb)| (handle, exact(handle, rb))));
     }

@@ -19,7 +19,6 @@ impl WearWorld {
     /// Leaves a body in Rapier's hands.
     pub(crate) fn hold(&mut self, body: RigidBodyHandle, reason: Refusal, world: &WorldView<'_>) {
         let dt = self.current.dt;
-        self.find_neighbours(world);
         let tracked = Tracked::slot(&mut self.bodies, body);
         let Some(rb) = world.bodies.get(body) else { return };
         if let Err(reason) = tracked.derive(rb, world.colliders) {
@@ -28,16 +27,17 @@ impl WearWorld {
         }
         let rest_speed = rest_speed(rb, world, dt);
         let limit = STRIKE * rest_speed;
+        let is_alone = reason == Refusal::Resting && self.obstacles.is_alone(body);
         let strikes = tracked.is_in_lockstep_blow()
             || self.comes_down(body, world, limit)
-            || self.is_struck(body, world, limit);
+            || !is_alone && self.is_struck(body, world, limit);
         let tracked = Tracked::slot(&mut self.bodies, body);
         let mut surfaces = tracked.near.clone();
         surfaces.sort_unstable();
         let friction = tracked.friction;
         self.taken.add_held(body, Grip { friction, lies: !strikes });
         let bore = tracked.borne.iter().map(|(_, load)| load).sum();
-        self.held.push(Held { body, surfaces, reason, strikes, rest_speed, bore });
+        self.held.push(Held { body, surfaces, reason, is_alone, strikes, rest_speed, bore });
     }
 
     /// Collects what could meet what in this step, once.
@@ -56,8 +56,8 @@ impl WearWorld {
             surfaces.sort_unstable();
             let bore = tracked.borne.iter().map(|(_, load)| load).sum();
             let rest_speed = rest_speed(rb, world, self.current.dt);
-            let (reason, strikes) = (Refusal::Resting, false);
-            self.held.push(Held { body, surfaces, reason, strikes, rest_speed, bore });
+            let (reason, is_alone, strikes) = (Refusal::Resting, false, false);
+            self.held.push(Held { body, surfaces, reason, is_alone, strikes, rest_speed, bore });
         }
     }
 
@@ -73,7 +73,8 @@ impl WearWorld {
 
     /// True when something comes to meet the body, or what hangs together with it, faster than
     /// `limit` [m/s].
-    fn is_struck(&self, body: RigidBodyHandle, world: &WorldView<'_>, limit: f64) -> bool {
+    fn is_struck(&mut self, body: RigidBodyHandle, world: &WorldView<'_>, limit: f64) -> bool {
+        self.find_neighbours(world);
         let (near, dt) = (&self.neighbours, self.current.dt);
         match gather(body, world, near, |_| true) {
             Ok(members) => members.bodies.iter().any(|m| near.blow(*m, world, dt, limit)),

@@ -140,6 +140,17 @@ impl Obstacles {
         }
     }
 
+    /// True for a candidate that no other collider could meet in this step.
+    pub fn is_alone(&self, body: RigidBodyHandle) -> bool {
+        let own = self.of_body.get(&body.into_raw_parts());
+        let own = own.map_or(&[][..], Vec::as_slice).iter().map(|&at| &self.list[at as usize]);
+        let meets = |own: &Obstacle| {
+            let others = self.list.iter().filter(|o| o.body != Some(body));
+            others.into_iter().any(|other| other.extent.meets(&own.extent))
+        };
+        !own.into_iter().any(meets)
+    }
+
     /// A collider that `body` could run into on `track`, given in `frame`.
     pub fn in_way(
         &self,

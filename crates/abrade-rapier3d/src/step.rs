@@ -89,8 +89,9 @@ impl WearWorld {
                 };
                 self.resolve(self.candidates[at], &world, until, observer);
             }
-            if !(self.held.is_empty() && self.sleepers.is_empty()) {
-                self.before.note(world.bodies, &self.bodies);
+            let may_wake = !self.sleepers.is_empty();
+            if may_wake || !self.held.is_empty() {
+                self.before.note(world.bodies, &self.bodies, &self.held, may_wake);
             }
             self.steer(&mut world, &gravity);
             if !self.driven.is_empty() {
