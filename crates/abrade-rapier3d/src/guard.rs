@@ -10,7 +10,7 @@ use crate::surface::WornCollider;
 
 /// How a surface meets a body that Rapier keeps in hand.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Grip {
+pub(crate) struct Bearing {
     /// Least friction of the contact [-]: more than the material's where the body ploughs.
     pub friction: f64,
     /// It lies on the surface, or in what it has worn: a clamp of its path to the undeformed
@@ -27,7 +27,7 @@ pub(crate) struct Taken {
     bodies: Vec<(u32, u32)>,
     /// Bodies that Rapier keeps in hand, sorted.
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
-    held: Vec<((u32, u32), Grip)>,
+    held: Vec<((u32, u32), Bearing)>,
     /// Proxies with the hooks that the embedder had set on them, sorted by handle.
     proxies: Vec<(ColliderHandle, ActiveHooks)>,
 }
@@ -38,14 +38,14 @@ impl Taken {
         self.held.clear();
     }
 
-    pub fn add_held(&mut self, body: RigidBodyHandle, grip: Grip) {
+    pub fn add_held(&mut self, body: RigidBodyHandle, grip: Bearing) {
         let key = body.into_raw_parts();
         if let Err(at) = self.held.binary_search_by_key(&key, |(held, _)| *held) {
             self.held.insert(at, (key, grip));
         }
     }
 
-    fn grip(&self, body: Option<RigidBodyHandle>) -> Option<Grip> {
+    fn grip(&self, body: Option<RigidBodyHandle>) -> Option<Bearing> {
         let key = body?.into_raw_parts();
         let at = self.held.binary_search_by_key(&key, |(held, _)| *held).ok()?;
         Some(self.held[at].1)
@@ -124,7 +124,7 @@ impl PhysicsHooks for WearGuard<'_> {
             || proxy2 && self.taken.has_body(context.rigid_body1);
         let pair = [context.collider1, context.collider2];
         let asked = self.user_asked(ActiveHooks::FILTER_CONTACT_PAIRS, context.colliders, pair);
-        let lies = |body| self.taken.grip(body).is_some_and(|grip: Grip| grip.lies);
+        let lies = |body| self.taken.grip(body).is_some_and(|grip: Bearing| grip.lies);
         let clamped =
             |proxy: bool, body| proxy && lies(body) && is_on_its_way(context.bodies, body);
         let clamped = clamped(proxy1, context.rigid_body2) || clamped(proxy2, context.rigid_body1);

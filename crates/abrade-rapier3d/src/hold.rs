@@ -4,7 +4,7 @@ use rapier::dynamics::{RigidBody, RigidBodyHandle};
 
 use crate::event::Refusal;
 use crate::gate::Course;
-use crate::guard::Grip;
+use crate::guard::Bearing;
 use crate::held::Held;
 use crate::lockstep::gather;
 use crate::scalar;
@@ -35,7 +35,7 @@ impl WearWorld {
         let mut surfaces = tracked.near.clone();
         surfaces.sort_unstable();
         let friction = tracked.friction;
-        self.taken.add_held(body, Grip { friction, lies: !strikes });
+        self.taken.add_held(body, Bearing { friction, lies: !strikes });
         let bore = tracked.borne.iter().map(|(_, load)| load).sum();
         self.held.push(Held { body, surfaces, reason, is_alone, strikes, rest_speed, bore });
     }

@@ -32,7 +32,8 @@ impl Live {
         Self { encounter, surfaces }
     }
 
-    /// Carries `body`, whose state is given in the frame of the first surface. Where changes are noted, the surfaces are worn by way of leaves, which know theirs.
+    /// Carries `body`, whose state is given in the frame of the first surface. Where changes are
+    /// noted, the surfaces are worn by way of leaves, which know theirs.
     pub fn carry(
         &mut self,
         body: &mut Body,

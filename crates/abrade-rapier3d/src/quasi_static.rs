@@ -34,7 +34,7 @@ pub(crate) struct Pressing {
 }
 
 /// Where a pressed body goes in a step.
-pub(crate) struct Way<'a> {
+pub(crate) struct Move<'a> {
     /// Its state at the end, but for the height, in the surface's frame.
     pub end: &'a State,
     /// Load that presses it down [N].
@@ -85,10 +85,10 @@ impl Pressing {
         handle: RigidBodyHandle,
         surfaces: &mut [WornCollider],
         lies: &[Lie],
-        way: &Way<'_>,
+        way: &Move<'_>,
         observer: &mut dyn WearObserver,
     ) -> Result<Option<Outcome>, PhysicsError> {
-        let Way { end, load, dt } = *way;
+        let Move { end, load, dt } = *way;
         let pitch = surfaces[self.surface.0].surface.pitch();
         let way = end.position - self.body.state.position;
         let turn = self.body.state.rotation.angle_to(&end.rotation);

@@ -10,7 +10,7 @@ use crate::gate::Lie;
 use crate::held::{self, Held};
 use crate::lockstep::{Lost, Share, gather};
 use crate::observer::WearObserver;
-use crate::quasi_static::{self, Pressing, Way};
+use crate::quasi_static::{self, Move, Pressing};
 use crate::resolver::{Resolve, Resolver};
 use crate::surface::SurfaceId;
 use crate::tracked::Tracked;
@@ -270,7 +270,7 @@ impl WearWorld {
         let displaced = worn.surface.worn().displaced();
         let pressing = &mut tracked.pressing[at];
         let (surfaces, lies) = (&mut self.surfaces, &self.lies);
-        let way = Way { end: &end, load, dt };
+        let way = Move { end: &end, load, dt };
         let Some(done) = pressing.advance(held.body, surfaces, lies, &way, observer)? else {
             return Ok(held_up);
         };

@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use crate::candidates::Slot;
 use crate::column::{Column, Interval, Pieces};
-use crate::damping::{Pressed, Shear};
+use crate::damping::{Shear, Sprung};
 use crate::elastic::coefficient;
 use crate::laws::{ElasticLaw, FlowLaw};
 use crate::node_law::{Motion, STEEP};
@@ -239,10 +239,10 @@ impl ColumnLaw {
         span: &Span,
         arm: Vector3<f64>,
         squeezes: [f64; 2],
-    ) -> Pressed {
+    ) -> Sprung {
         let cosine = (-span.deep_normal.dot(&slot.n)).max(STEEP);
         let [before, after] = squeezes;
-        Pressed {
+        Sprung {
             normal: span.deep_normal,
             arm,
             cosine,

@@ -26,7 +26,7 @@ const HALVINGS: usize = 60;
 
 /// A spring over a step, for its dashpot.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pressed {
+pub(crate) struct Sprung {
     /// m: unit, from the body into the surface, and the lever of the force [m].
     pub normal: Vector3<f64>,
     pub arm: Vector3<f64>,
@@ -58,7 +58,7 @@ pub(crate) struct Shear {
 /// The springs of one contact in one step; kept for its buffer.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Dashpots {
-    springs: Vec<Pressed>,
+    springs: Vec<Sprung>,
 }
 
 /// What the dashpots do to a body over a step.
@@ -105,7 +105,7 @@ impl Dashpots {
         self.springs.clear();
     }
 
-    pub(crate) fn add(&mut self, spring: Pressed) {
+    pub(crate) fn add(&mut self, spring: Sprung) {
         self.springs.push(spring);
     }
 

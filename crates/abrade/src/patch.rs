@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use crate::body::State;
 use crate::candidates::Candidates;
-use crate::damping::{Dashpots, Pressed, Shear, damping_ratio};
+use crate::damping::{Dashpots, Shear, Sprung, damping_ratio};
 use crate::elastic::{Elastic, Foundation, HertzNodes, coefficient};
 use crate::flight::time_to_close;
 use crate::flow::{CapozzaHanley, Eq5, Flow, NormalPressure, Projected};
@@ -258,7 +258,7 @@ impl Patch {
             let [before, after] =
                 overlaps.map(|d| elastic.normal_force(touch.coefficient, d, slot.area));
             let stored = overlaps.map(|d| elastic.normal_energy(touch.coefficient, d, slot.area));
-            dashpots.add(Pressed {
+            dashpots.add(Sprung {
                 normal: touch.contact_normal,
                 arm: touch.arm,
                 cosine,

@@ -23,7 +23,7 @@ use crate::tracked::Tracked;
 use crate::view::WorldView;
 
 /// The private world, and what stands there for what.
-pub(crate) struct Copy {
+pub(crate) struct Twin {
     pub world: PhysicsWorld,
     pub bodies: BTreeMap<(u32, u32), fine::dynamics::RigidBodyHandle>,
     pub standing: BTreeMap<(u32, u32), fine::geometry::ColliderHandle>,
@@ -35,13 +35,13 @@ pub(crate) fn copy(
     world: &WorldView<'_>,
     before: &Before,
     tracked: &[Option<Tracked>],
-) -> Result<Copy, Refusal> {
+) -> Result<Twin, Refusal> {
     let mut inner = PhysicsWorld {
         gravity: to_vector(&scalar::vector(world.gravity)),
         ..PhysicsWorld::default()
     };
     inner.integration_parameters.length_unit = scalar::wide(world.parameters.length_unit);
-    let mut copy = Copy { world: inner, bodies: BTreeMap::new(), standing: BTreeMap::new() };
+    let mut copy = Twin { world: inner, bodies: BTreeMap::new(), standing: BTreeMap::new() };
     for &handle in &members.bodies {
         let (Some(rb), Some(state)) = (world.bodies.get(handle), before.of(handle)) else {
             continue;
@@ -56,7 +56,7 @@ pub(crate) fn copy(
     Ok(copy)
 }
 
-impl Copy {
+impl Twin {
     fn add_body(
         &mut self,
         handle: RigidBodyHandle,
