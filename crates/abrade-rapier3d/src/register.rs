@@ -47,8 +47,8 @@ impl WearWorld {
     }
 
     /// Puts `surface` on the collider `proxy`, with its frame at `offset` in the proxy's. Sets
-    /// the proxy's flags `FILTER_CONTACT_PAIRS` and `MODIFY_SOLVER_CONTACTS`, which must stay set. The proxy should end where
-    /// the nodes do: outside of them a body that wears falls through it.
+    /// the proxy's flags `FILTER_CONTACT_PAIRS` and `MODIFY_SOLVER_CONTACTS`, which must stay set.
+    /// The proxy should end where the nodes do: outside of them a body that wears falls through it.
     ///
     /// # Errors
     /// There is no such collider, or it carries a surface already.

@@ -1,11 +1,12 @@
 //! Resolving one body near a wear surface: through the gate and the Micro resolver, or left to
 //! Rapier with a reason, until the other resolvers know what it bore.
 
-use abrade::{PhysicsError, Until};
+use abrade::{Advance, PhysicsError, Until};
+use nalgebra::Isometry3;
 use rapier::dynamics::RigidBodyHandle;
 
 use crate::ahead::Ahead;
-use crate::booking::{Booking, Contact};
+use crate::booking::Booking;
 use crate::error::WearError;
 use crate::event::{Refusal, WearEvent};
 use crate::micro;
@@ -170,25 +171,36 @@ impl WearWorld {
                 (advance?, worn, track)
             }
         };
-        let booking = Booking {
-            impulse: frame * advance.impulse,
-            contact_time: advance.contact_time,
-            touches: live.encounter.in_contact(),
-        };
-        Contact::book(&mut tracked.contact, handle, &booking, &worn, &mut self.events);
-        self.counters.add(&advance);
-        self.integrated.push(Integrated { body: handle, end: body.state, frame });
+        let end = body.state;
+        self.integrated.push(Integrated { body: handle, end, frame });
         self.obstacles.settle(handle, &track.placed_by(&frame));
+        self.book_micro(handle, &advance, &worn, &frame, until);
+        Ok(())
+    }
+
+    /// Books what Micro did to a body.
+    fn book_micro(
+        &mut self,
+        handle: RigidBodyHandle,
+        advance: &Advance,
+        worn: &[(SurfaceId, f64)],
+        frame: &Isometry3<f64>,
+        until: Until,
+    ) {
+        let tracked = Tracked::slot(&mut self.bodies, handle);
+        let touches = tracked.live.as_ref().is_some_and(|live| live.encounter.in_contact());
+        let (impulse, contact_time) = (frame * advance.impulse, advance.contact_time);
+        tracked.book(&Booking { impulse, contact_time, touches }, worn, &mut self.events);
+        self.counters.add(advance);
         if advance.exited && until == Until::FirstExit {
             self.current.dt = advance.time;
             self.current.exited = Some(handle);
             self.obstacles.forget_times();
         }
         // What follows an exit is another encounter, with a first exit of its own.
-        if advance.exited && !live.encounter.in_contact() {
+        if advance.exited && !touches {
             self.closed += tracked.end(&mut self.events);
         }
         tracked.taken_by_micro(&mut self.surfaces, &mut self.closed, &mut self.events);
-        Ok(())
     }
 }
