@@ -21,6 +21,14 @@ pub fn to_pose(p: &Isometry3<f64>) -> Pose {
     Pose::from_parts(to_vector(&p.translation.vector), Rotation::from_xyzw(q.i, q.j, q.k, q.w))
 }
 
+/// A pose of Rapier's.
+#[cfg(test)]
+pub(crate) fn from_pose(p: &Pose) -> Isometry3<f64> {
+    let q = p.rotation;
+    let rotation = UnitQuaternion::new_normalize(Quaternion::new(q.w, q.x, q.y, q.z));
+    Isometry3::from_parts(from_vector(p.translation).into(), rotation)
+}
+
 /// State of a body about its centre of mass, in the world.
 pub(crate) fn state(body: &RigidBody) -> State {
     let q = body.rotation();

@@ -7,13 +7,16 @@ use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::{ColliderHandle, SolverFlags};
 use rapier::pipeline::{ContactModificationContext, PairFilterContext, PhysicsHooks};
 
+/// Two colliders and their parts.
+type Pair = [(u32, u32, u32); 2];
+
 /// Which pairs are taken from Rapier.
 pub(crate) struct Filter {
     pub proxies: Vec<Proxy>,
     /// Bodies that wear.
     pub wearers: Vec<Wearing>,
-    /// Per pair of colliders and their parts, the distance at which a resting body came to rest.
-    settled: Mutex<BTreeMap<[(u32, u32, u32); 2], f64>>,
+    /// The distances at which resting bodies came to rest.
+    settled: Mutex<BTreeMap<Pair, f64>>,
 }
 
 /// What a surface of the island stands on.

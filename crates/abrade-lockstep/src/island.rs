@@ -1,7 +1,7 @@
 //! The island and its steps.
 
 use abrade::{Met, PhysicsError, Placed, State};
-use rapier::dynamics::{GenericJoint, RigidBody, RigidBodyHandle};
+use rapier::dynamics::{GenericJoint, Multibody, MultibodyJoint, RigidBody, RigidBodyHandle};
 use rapier::math::Vector;
 use rapier::pipeline::{ActiveHooks, PhysicsWorld};
 
@@ -10,7 +10,7 @@ use crate::convert::{state, to_vector};
 use crate::filter::{Filter, Proxy, Wearing};
 use crate::pairs::Pairs;
 use crate::parameters::{refine, refine_joint};
-use crate::rewind::Rewind;
+use crate::rewind::{Rewind, chains};
 use crate::wearer::Wearer;
 
 /// Parts of an advance that no step is longer than.
@@ -73,6 +73,13 @@ impl Island {
         refine(&mut world.integration_parameters);
         for (_, joint) in world.impulse_joints.iter_mut() {
             refine_joint(&mut joint.data);
+        }
+        let chains: Vec<_> = chains(&world.multibody_joints).map(|(index, _)| index).collect();
+        for index in chains {
+            let multibody = world.multibody_joints.get_multibody_mut(index);
+            multibody.into_iter().flat_map(Multibody::links_mut).for_each(|link| {
+                refine_joint(&mut link.joint.data);
+            });
         }
         for proxy in &proxies {
             let hooks = ActiveHooks::FILTER_CONTACT_PAIRS | ActiveHooks::MODIFY_SOLVER_CONTACTS;
@@ -192,14 +199,16 @@ impl Island {
     /// Longest step in which no body turns too far [s].
     fn turning(&self) -> f64 {
         let spins = self.world.bodies.iter().map(|(_, rb)| rb.angvel().length());
-        let turn = if self.world.impulse_joints.is_empty() { TURN_FREE } else { TURN_HELD };
+        let joints = &self.world.multibody_joints;
+        let is_held = !self.world.impulse_joints.is_empty() || chains(joints).next().is_some();
+        let turn = if is_held { TURN_HELD } else { TURN_FREE };
         turn / spins.fold(0.0, f64::max)
     }
 
     /// A step of at most `h` [s]; returns its length.
     fn step(&mut self, surfaces: &mut [Placed<'_>], h: f64) -> Result<f64, PhysicsError> {
         let mut h = h;
-        self.rewind.save(&self.world.bodies);
+        self.rewind.save(&self.world);
         loop {
             if h < f64::MIN_POSITIVE / f64::EPSILON {
                 return Err(PhysicsError::StepVanished { step: h });
@@ -213,7 +222,7 @@ impl Island {
             match self.follow(surfaces, h)? {
                 Met::Fits => break,
                 Met::TooLong(shorter) => {
-                    self.rewind.restore(&mut self.world.bodies);
+                    self.rewind.restore(&mut self.world);
                     h = shorter;
                 }
             }
@@ -316,7 +325,11 @@ impl Island {
     pub fn is_driven(&self) -> bool {
         let motors = |joint: &GenericJoint| !joint.motor_axes.is_empty();
         let forces = |rb: &RigidBody| rb.is_kinematic();
+        let springs = |joint: &MultibodyJoint| (0..6).any(|axis| joint.spring(axis).0 != 0.0);
+        let drives =
+            |joint: &MultibodyJoint| joint.kinematic || springs(joint) || motors(&joint.data);
         self.world.impulse_joints.iter().any(|(_, joint)| motors(&joint.data))
+            || self.world.multibody_joints.iter().any(|(_, _, _, link)| drives(link.joint()))
             || self.world.bodies.iter().any(|(_, rb)| forces(rb))
             || self
                 .loads

@@ -18,6 +18,7 @@
 
 pub use rapier;
 
+mod articulation;
 mod calm;
 mod convert;
 mod filter;
@@ -29,6 +30,7 @@ mod rewind;
 mod state;
 mod wearer;
 
+pub use articulation::{Coordinates, Link, LinkJoint};
 pub use convert::{from_vector, to_pose, to_vector};
 pub use filter::Proxy;
 pub use island::{Done, Island, IslandSettings};

@@ -66,7 +66,9 @@ fn linked(
 ) -> bool {
     let (Some(first), Some(second)) = (first, second) else { return false };
     let mut between = world.impulse_joints.joints_between(first, second);
+    let link = world.multibody_joints.joint_between(first, second);
     between.any(|(_, joint)| !joint.data.contacts_enabled)
+        || link.is_some_and(|(_, _, link)| !link.joint().data.contacts_enabled)
 }
 
 /// Distance of two boxes [m]; zero if they meet.

@@ -108,8 +108,8 @@ pub enum Refusal {
     /// A contact of its island was too stiff or too long for it.
     #[error("a contact of the island was too stiff, or took too many steps")]
     Stiff,
-    /// It is a link of a multibody.
-    #[error("a body of the island is a link of a multibody")]
+    /// An articulation (Rapier's multibody) whose root is moved by the embedder.
+    #[error("the root of an articulation of the island is kinematic")]
     Multibody,
     /// Too many bodies hang together.
     #[error("more than {limit} bodies touch each other or are jointed")]

@@ -3,7 +3,7 @@
 
 use abrade::State;
 use nalgebra::Vector3;
-use rapier::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
+use rapier::dynamics::{MultibodyJointSet, RigidBody, RigidBodyHandle};
 use rapier::geometry::{ColliderHandle, NarrowPhase};
 
 use crate::event::Refusal;
@@ -11,6 +11,7 @@ use crate::scalar;
 use crate::shadow;
 use crate::surface::{SurfaceId, WornCollider};
 use crate::tracked::Tracked;
+use crate::view::WorldView;
 
 /// A body that Rapier keeps in hand.
 pub(crate) struct Held {
@@ -40,15 +41,20 @@ impl Before {
     /// one of them could meet another, or something `may_wake`.
     pub fn note(
         &mut self,
-        bodies: &RigidBodySet,
+        world: &WorldView<'_>,
         tracked: &[Option<Tracked>],
         held: &[Held],
         may_wake: bool,
     ) {
         self.states.clear();
+        let bodies = &*world.bodies;
         let exact = |handle: RigidBodyHandle, rb: &RigidBody| {
             let shadow = Tracked::find(tracked, handle).and_then(|t| t.shadow.as_ref());
-            shadow::read(rb, shadow, &nalgebra::Isometry3::identity())
+            let state = shadow::read(rb, shadow, &nalgebra::Isometry3::identity());
+            match link_velocity(handle, world.multibody_joints) {
+                Some([velocity, spin]) => State { velocity, spin, ..state },
+                None => state,
+            }
         };
         if held.iter().all(|held| held.is_alone) && !may_wake {
             let own = held.iter().filter_map(|held| Some((held.body, bodies.get(held.body)?)));
@@ -66,6 +72,19 @@ impl Before {
         let at = self.states.binary_search_by_key(&key, |(h, _)| h.into_raw_parts().0).ok()?;
         Some(&self.states[at].1).filter(|_| self.states[at].0 == body)
     }
+}
+
+/// Velocity and spin of a link of an articulation, whose joints know them: what its body says is
+/// of no consequence.
+fn link_velocity(body: RigidBodyHandle, joints: &MultibodyJointSet) -> Option<[Vector3<f64>; 2]> {
+    let link = joints.rigid_body_link(body)?;
+    let multibody = joints.get_multibody(link.multibody)?;
+    let (jacobian, rates) = (multibody.body_jacobian(link.id), multibody.generalized_velocity());
+    // Empty before its first step.
+    (jacobian.ncols() == rates.nrows()).then(|| {
+        let motion = jacobian * rates;
+        [0, 3].map(|first| Vector3::from_fn(|axis, _| scalar::wide(motion[first + axis])))
+    })
 }
 
 /// Impulse that Rapier's contacts with a proxy gave a body in the last step [N s], in the world.

@@ -191,6 +191,10 @@ impl WearWorld {
 
     /// Lifts a body to the surface where Rapier let it sink.
     fn keep_afloat(&mut self, held: &Held, world: &mut WorldView<'_>) {
+        // A link is where its joints put it.
+        if world.multibody_joints.rigid_body_link(held.body).is_some() {
+            return;
+        }
         let Some(rb) = world.bodies.get(held.body) else { return };
         let tracked = Tracked::slot(&mut self.bodies, held.body);
         let load: f64 = tracked.borne.iter().map(|(_, load)| load).sum();

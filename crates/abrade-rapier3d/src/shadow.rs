@@ -64,7 +64,7 @@ pub(crate) fn read(body: &RigidBody, shadow: Option<&Shadow>, frame: &Isometry3<
 }
 
 /// The state that Rapier holds, in the world.
-fn held(body: &RigidBody) -> State {
+pub(crate) fn held(body: &RigidBody) -> State {
     let pose = scalar::pose(body.position());
     State {
         position: pose * nalgebra::Point3::from(scalar::vector(body.local_center_of_mass())),

@@ -91,7 +91,7 @@ impl WearWorld {
             }
             let may_wake = !self.sleepers.is_empty();
             if may_wake || !self.held.is_empty() {
-                self.before.note(world.bodies, &self.bodies, &self.held, may_wake);
+                self.before.note(&world, &self.bodies, &self.held, may_wake);
             }
             self.steer(&mut world, &gravity);
             if !self.driven.is_empty() {

@@ -20,8 +20,8 @@ pub struct WorldView<'a> {
     pub colliders: &'a mut ColliderSet,
     /// The joints.
     pub impulse_joints: &'a ImpulseJointSet,
-    /// The articulations.
-    pub multibody_joints: &'a MultibodyJointSet,
+    /// The articulations; those of an island are moved.
+    pub multibody_joints: &'a mut MultibodyJointSet,
     /// The contacts of the last step.
     pub narrow_phase: &'a NarrowPhase,
 }
@@ -35,7 +35,7 @@ impl<'a> WorldView<'a> {
             bodies: &mut world.bodies,
             colliders: &mut world.colliders,
             impulse_joints: &world.impulse_joints,
-            multibody_joints: &world.multibody_joints,
+            multibody_joints: &mut world.multibody_joints,
             narrow_phase: &world.narrow_phase,
         }
     }

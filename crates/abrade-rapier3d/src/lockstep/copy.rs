@@ -4,18 +4,19 @@ use std::collections::BTreeMap;
 
 use abrade::State;
 use abrade_lockstep::rapier as fine;
-use abrade_lockstep::{to_pose, to_vector};
+use abrade_lockstep::{Link, to_pose, to_vector};
 use fine::dynamics::{LockedAxes, MassProperties, RigidBodyBuilder};
 use fine::math::Matrix;
 use fine::pipeline::PhysicsWorld;
 use nalgebra::{Isometry3, Translation3, Vector3};
-use rapier::dynamics::{RigidBody, RigidBodyHandle};
+use rapier::dynamics::{Multibody, RigidBody, RigidBodyHandle};
 use rapier::geometry::{Collider, ColliderHandle};
 use rapier::math::Pose;
 
 use crate::derive::is_solid;
 use crate::event::Refusal;
 use crate::held::Before;
+use crate::lockstep::articulation::{Since, articulations, dress, link, motion};
 use crate::lockstep::members::Members;
 use crate::lockstep::widen;
 use crate::scalar;
@@ -27,6 +28,8 @@ pub(crate) struct Twin {
     pub world: PhysicsWorld,
     pub bodies: BTreeMap<(u32, u32), fine::dynamics::RigidBodyHandle>,
     pub standing: BTreeMap<(u32, u32), fine::geometry::ColliderHandle>,
+    /// Bodies that stand, with a joint to a member.
+    anchors: BTreeMap<(u32, u32), fine::dynamics::RigidBodyHandle>,
 }
 
 /// Copies the members as they were before the step.
@@ -41,7 +44,8 @@ pub(crate) fn copy(
         ..PhysicsWorld::default()
     };
     inner.integration_parameters.length_unit = scalar::wide(world.parameters.length_unit);
-    let mut copy = Twin { world: inner, bodies: BTreeMap::new(), standing: BTreeMap::new() };
+    let (bodies, standing, anchors) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+    let mut copy = Twin { world: inner, bodies, standing, anchors };
     for &handle in &members.bodies {
         let (Some(rb), Some(state)) = (world.bodies.get(handle), before.of(handle)) else {
             continue;
@@ -52,7 +56,12 @@ pub(crate) fn copy(
         let Some(collider) = world.colliders.get(handle) else { continue };
         copy.add_standing(handle, collider)?;
     }
-    copy.add_joints(world)?;
+    copy.add_joints(world);
+    for index in articulations(members, world.multibody_joints) {
+        let Some(multibody) = world.multibody_joints.get_multibody(index) else { continue };
+        let state = |body| before.of(body).copied();
+        copy.add_articulation(multibody, world, |body| link(body, world.bodies, state))?;
+    }
     Ok(copy)
 }
 
@@ -116,8 +125,7 @@ impl Twin {
     }
 
     /// Copies the joints of the members, among each other and to what stands.
-    fn add_joints(&mut self, world: &WorldView<'_>) -> Result<(), Refusal> {
-        let mut anchors = BTreeMap::new();
+    fn add_joints(&mut self, world: &WorldView<'_>) {
         for (_, joint) in world.impulse_joints.iter().filter(|(_, j)| j.data.is_enabled()) {
             let ends = [joint.body1(), joint.body2()];
             let is_member =
@@ -125,19 +133,64 @@ impl Twin {
             if !ends.iter().any(is_member) {
                 continue;
             }
-            let [first, second] = ends.map(|body| {
-                let key = body.into_raw_parts();
-                let known = self.bodies.get(&key).or_else(|| anchors.get(&key)).copied();
-                known.unwrap_or_else(|| {
-                    let place = world.bodies.get(body).map(|rb| widen::pose(rb.position()));
-                    let fixed = RigidBodyBuilder::fixed().pose(place.unwrap_or_default());
-                    let inner = self.world.insert_body(fixed);
-                    anchors.insert(key, inner);
-                    inner
-                })
-            });
+            let [first, second] = ends.map(|body| self.find_or_fix(body, world));
             self.world.insert_impulse_joint(first, second, widen::joint(&joint.data));
         }
+    }
+
+    /// The copy of a body, which stands if it is no member.
+    fn find_or_fix(
+        &mut self,
+        body: RigidBodyHandle,
+        world: &WorldView<'_>,
+    ) -> fine::dynamics::RigidBodyHandle {
+        let key = body.into_raw_parts();
+        if let Some(known) = self.bodies.get(&key).or_else(|| self.anchors.get(&key)) {
+            return *known;
+        }
+        let place = world.bodies.get(body).map(|rb| widen::pose(rb.position()));
+        let fixed = RigidBodyBuilder::fixed().pose(place.unwrap_or_default());
+        let inner = self.world.insert_body(fixed);
+        self.anchors.insert(key, inner);
+        inner
+    }
+
+    /// Copies an articulation, at the states that `link` gives its bodies.
+    fn add_articulation(
+        &mut self,
+        multibody: &Multibody,
+        world: &WorldView<'_>,
+        link: impl Fn(RigidBodyHandle) -> Option<Link>,
+    ) -> Result<(), Refusal> {
+        let root = world.bodies.get(multibody.root().rigid_body_handle());
+        if root.is_none_or(RigidBody::is_kinematic) {
+            return Err(Refusal::Multibody);
+        }
+        let motion = motion(multibody, Since::Origin, link).ok_or(Refusal::Multibody)?;
+        let inner: Vec<_> = multibody
+            .links()
+            .map(|link| self.find_or_fix(link.rigid_body_handle(), world))
+            .collect();
+        let PhysicsWorld { bodies, multibody_joints, .. } = &mut self.world;
+        for link in multibody.links() {
+            let Some(parent) = link.parent_id() else { continue };
+            let (ends, joint) = ([inner[parent], inner[link.link_id()]], link.joint());
+            let data = widen::joint(&joint.data);
+            match joint.kinematic {
+                true => multibody_joints.insert_kinematic(ends[0], ends[1], data, true),
+                false => multibody_joints.insert(ends[0], ends[1], data, true),
+            };
+        }
+        let index = multibody_joints.rigid_body_link(inner[0]).map(|link| link.multibody);
+        let copied = index.and_then(|index| multibody_joints.get_multibody_mut(index));
+        let copied = copied.ok_or(Refusal::Multibody)?;
+        // A root that stands has no freedom, once that is known.
+        copied.forward_kinematics(bodies, true);
+        if copied.ndofs() != multibody.ndofs() || copied.num_links() != multibody.num_links() {
+            return Err(Refusal::Multibody);
+        }
+        dress(multibody, copied);
+        motion.apply_within(copied, bodies);
         Ok(())
     }
 }

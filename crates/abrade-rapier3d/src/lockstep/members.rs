@@ -1,7 +1,7 @@
 //! Who belongs to an island: everything that is jointed to a member, or could meet
 //! one in the step.
 
-use rapier::dynamics::{RigidBody, RigidBodyHandle};
+use rapier::dynamics::{Multibody, RigidBody, RigidBodyHandle};
 use rapier::geometry::ColliderHandle;
 
 use crate::event::Refusal;
@@ -35,8 +35,11 @@ pub(crate) fn gather(
         if !world.bodies.get(body).is_some_and(RigidBody::is_dynamic) {
             continue;
         }
-        if world.multibody_joints.rigid_body_link(body).is_some() {
-            return Err(Refusal::Multibody);
+        if let Some(link) = world.multibody_joints.rigid_body_link(body) {
+            let multibody = world.multibody_joints.get_multibody(link.multibody);
+            for link in multibody.into_iter().flat_map(Multibody::links) {
+                members.add_body(link.rigid_body_handle(), world, &is_free);
+            }
         }
         for (first, second, _, _) in world.impulse_joints.attached_enabled_joints(body) {
             members.add_body(if first == body { second } else { first }, world, &is_free);

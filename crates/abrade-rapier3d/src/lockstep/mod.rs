@@ -4,6 +4,7 @@
 
 #![allow(unused_qualifications, reason = "in the f64 package the two engines are one")]
 
+mod articulation;
 mod cast;
 mod copy;
 mod members;
@@ -20,12 +21,14 @@ use rapier::dynamics::RigidBodyHandle;
 use crate::event::Refusal;
 use crate::gate::Lie;
 use crate::held::Held;
+use crate::lockstep::articulation::{Since, articulations, motion};
 pub(crate) use crate::lockstep::cast::meeting;
 use crate::lockstep::copy::copy;
 use crate::lockstep::members::Members;
 pub(crate) use crate::lockstep::members::gather;
 use crate::micro::placed;
 use crate::resolver::Resolve;
+use crate::shadow::Shadow;
 use crate::surface::SurfaceId;
 use crate::tracked::Tracked;
 use crate::view::WorldView;
@@ -182,9 +185,11 @@ impl WearWorld {
         members: &Members,
         world: &mut WorldView<'_>,
     ) {
+        let end = |body: RigidBodyHandle| {
+            inner.get(&body.into_raw_parts()).and_then(|inner| island.state(*inner))
+        };
         for &body in &members.bodies {
-            let state = inner.get(&body.into_raw_parts()).and_then(|inner| island.state(*inner));
-            let (Some(rb), Some(state)) = (world.bodies.get_mut(body), state) else { continue };
+            let (Some(rb), Some(state)) = (world.bodies.get_mut(body), end(body)) else { continue };
             if !rb.is_dynamic() {
                 continue;
             }
@@ -193,6 +198,19 @@ impl WearWorld {
             }
             let shadow = shadow::write(rb, Isometry3::identity(), state);
             Tracked::slot(&mut self.bodies, body).shadow = Some(shadow);
+        }
+        for index in articulations(members, world.multibody_joints) {
+            let Some(multibody) = world.multibody_joints.get_multibody_mut(index) else { continue };
+            let link = |body| articulation::link(body, world.bodies, end);
+            let Some(motion) = motion(multibody, Since::Now, link) else { continue };
+            motion.apply(multibody, world.bodies);
+        }
+        for &body in &members.bodies {
+            let Some(rb) = world.bodies.get(body).filter(|rb| rb.is_dynamic()) else { continue };
+            let tracked = Tracked::slot(&mut self.bodies, body);
+            // An articulation closes its joints over the states, within roundings.
+            let exact = |shadow: &Shadow| Shadow::of(rb, shadow.frame, shadow.state);
+            tracked.shadow = tracked.shadow.as_ref().map(exact);
             steer::carry_colliders(rb, world.colliders);
         }
     }

@@ -104,6 +104,28 @@ impl Rig {
         self.world.insert(body, collider).0
     }
 
+    /// Joins two bodies by impulses.
+    pub fn joint(&mut self, [first, second]: [RigidBodyHandle; 2], joint: GenericJoint) {
+        self.world.insert_impulse_joint(first, second, joint);
+    }
+
+    /// Joins two bodies, as they move, to an articulation without damping: rigidly, or a body
+    /// that hangs on one that stands.
+    pub fn link(&mut self, [first, second]: [RigidBodyHandle; 2], joint: GenericJoint) {
+        let handle = self.world.insert_multibody_joint(first, second, joint).expect("a joint");
+        let (multibody, _) = self.world.multibody_joints.get_mut(handle).expect("a link");
+        multibody.forward_kinematics(&self.world.bodies, true);
+        multibody.damping_mut().fill(n(0.0));
+        let [root, link] = [first, second].map(|body| &self.world.bodies[body]);
+        let turn = joint.local_frame1.rotation.inverse() * link.angvel();
+        let (v, spin) = (root.linvel(), root.angvel());
+        let rates = match root.is_dynamic() {
+            true => vec![v.x, v.y, v.z, spin.x, spin.y, spin.z],
+            false => vec![turn.x],
+        };
+        multibody.generalized_velocity_mut().copy_from_slice(&rates);
+    }
+
     pub fn step(&mut self) {
         self.wear.step(&mut self.world, &(), &()).expect("a step inside the model");
         self.time += self.case.dt;

@@ -28,6 +28,9 @@ impl Rig {
     }
 }
 
+/// How two bodies are joined.
+type Join = fn(&mut Rig, [RigidBodyHandle; 2], GenericJoint);
+
 fn down() -> Vector3<f64> {
     Vector3::z() * -GRAVITY
 }
@@ -81,8 +84,16 @@ pub fn heavy_block_on_sleeping_ball(case: Case) -> Outcome {
     block_on_ball(case, 20_000.0, true)
 }
 
-/// Two balls that a fixed joint holds 8 mm apart, tilted, at 20 m/s.
 pub fn fixed_joint_dumbbell(case: Case) -> Outcome {
+    dumbbell(case, Rig::joint)
+}
+
+pub fn dumbbell_as_articulation(case: Case) -> Outcome {
+    dumbbell(case, Rig::link)
+}
+
+/// Two balls that a fixed joint holds 8 mm apart, tilted, at 20 m/s.
+fn dumbbell(case: Case, join: Join) -> Outcome {
     let plate = Plate { length: 30e-3, width: 12e-3, pitch: 0.1e-3, hardness: 1.7e9, young: 200e9 };
     let mut rig = Rig::new(case, &plate, Vector3::zeros(), 0.01);
     let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), 0.5);
@@ -100,15 +111,23 @@ pub fn fixed_joint_dumbbell(case: Case) -> Outcome {
         .local_anchor1(scalar::to_vector(&-arms[0]))
         .local_anchor2(scalar::to_vector(&-arms[1]))
         .contacts_enabled(false);
-    rig.world.insert_impulse_joint(balls[0], balls[1], joint);
+    join(&mut rig, balls, joint.build().data);
     rig.run(0.05, |_| ());
     let velocities = balls.map(|ball| scalar::vector(rig.world.bodies[ball].linvel()));
     let speed = (velocities[0] + velocities[1]).norm() / 2.0;
     Outcome { speed, ..rig.outcome(balls[0]) }
 }
 
-/// A pendulum of 60 mm whose hard tip swings into the plate at 45 degrees.
 pub fn pendulum(case: Case) -> Outcome {
+    swing(case, Rig::joint)
+}
+
+pub fn pendulum_as_articulation(case: Case) -> Outcome {
+    swing(case, Rig::link)
+}
+
+/// A pendulum of 60 mm whose hard tip swings into the plate at 45 degrees.
+fn swing(case: Case, join: Join) -> Outcome {
     let plate = Plate { length: 0.12, width: 12e-3, pitch: 0.1e-3, hardness: 1.7e9, young: 200e9 };
     let mut rig = Rig::new(case, &plate, down(), 0.01);
     let (arm, radius) = (60e-3, 3e-3);
@@ -127,7 +146,7 @@ pub fn pendulum(case: Case) -> Outcome {
     let joint = RevoluteJointBuilder::new(Vector::Y)
         .local_anchor1(Vector::ZERO)
         .local_anchor2(scalar::to_vector(&Vector3::new(-at.x, 0.0, height - at.z)));
-    rig.world.insert_impulse_joint(pivot, tip, joint);
+    join(&mut rig, [pivot, tip], joint.build().data);
     rig.run(1.0 / 60.0, |_| ());
     rig.outcome(tip)
 }

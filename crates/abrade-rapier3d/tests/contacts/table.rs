@@ -10,17 +10,48 @@ use super::rows::{self, Outcome};
 struct Row {
     name: &'static str,
     run: fn(Case) -> Outcome,
+    reference: fn(Case) -> Outcome,
 }
 
-const ROWS: [Row; 8] = [
-    Row { name: "loaded ball on soft ground", run: rows::loaded_ball },
-    Row { name: "light block on a resting ball", run: rows::light_block_on_ball },
-    Row { name: "heavy block on a resting ball", run: rows::heavy_block_on_ball },
-    Row { name: "fixed-joint dumbbell", run: rows::fixed_joint_dumbbell },
-    Row { name: "pendulum", run: rows::pendulum },
-    Row { name: "motor-driven scratch", run: rows::motor_driven_scratch },
-    Row { name: "struck stack", run: rows::struck_stack },
-    Row { name: "rolling clump", run: rows::rolling_clump },
+const ROWS: [Row; 10] = [
+    Row {
+        name: "loaded ball on soft ground",
+        run: rows::loaded_ball,
+        reference: rows::loaded_ball,
+    },
+    Row {
+        name: "light block on a resting ball",
+        run: rows::light_block_on_ball,
+        reference: rows::light_block_on_ball,
+    },
+    Row {
+        name: "heavy block on a resting ball",
+        run: rows::heavy_block_on_ball,
+        reference: rows::heavy_block_on_ball,
+    },
+    Row {
+        name: "fixed-joint dumbbell",
+        run: rows::fixed_joint_dumbbell,
+        reference: rows::fixed_joint_dumbbell,
+    },
+    Row { name: "pendulum", run: rows::pendulum, reference: rows::pendulum },
+    Row {
+        name: "motor-driven scratch",
+        run: rows::motor_driven_scratch,
+        reference: rows::motor_driven_scratch,
+    },
+    Row { name: "struck stack", run: rows::struck_stack, reference: rows::struck_stack },
+    Row { name: "rolling clump", run: rows::rolling_clump, reference: rows::rolling_clump },
+    Row {
+        name: "dumbbell as an articulation",
+        run: rows::dumbbell_as_articulation,
+        reference: rows::fixed_joint_dumbbell,
+    },
+    Row {
+        name: "pendulum as an articulation",
+        run: rows::pendulum_as_articulation,
+        reference: rows::pendulum,
+    },
 ];
 
 /// Steps [s] with the errors allowed in W and in the speed [-].
@@ -31,7 +62,7 @@ const LOCKSTEP: f64 = 0.01;
 const REST: f64 = 0.01;
 
 /// Known misses: row, run, and why. They are printed; everything else must hold.
-const MISSES: [(&str, &str, &str); 2] = [
+const MISSES: [(&str, &str, &str); 4] = [
     (
         "struck stack",
         "lockstep at 1/240 s",
@@ -39,6 +70,17 @@ const MISSES: [(&str, &str, &str); 2] = [
          where the steps fall; the reference itself moves by 1 % between f32 and f64",
     ),
     ("struck stack", "auto at 0.0042 s, 0 m", "up to +19 % in f32: as above"),
+    (
+        "pendulum as an articulation",
+        "lockstep at 1/240 s",
+        "speed +1.3 %: Rapier alone swings an articulation back with +1.25 % at this step, a joint \
+         with -0.02 %",
+    ),
+    (
+        "dumbbell as an articulation",
+        "lockstep at 1/240 s",
+        "speed +1.2 %: Rapier alone does not keep the momentum of an articulation that spins",
+    ),
 ];
 
 fn is_known(row: &str, what: &str) -> bool {
@@ -54,7 +96,7 @@ fn origins() -> [Vector3<f64>; 2] {
 fn check(row: &Row) {
     let origin = Vector3::zeros();
     let case = |resolve, dt, accuracy, origin| Case { dt, origin, resolve, accuracy };
-    let reference = (row.run)(case(Resolve::Lockstep, 1e-4, 1e-4, origin));
+    let reference = (row.reference)(case(Resolve::Lockstep, 1e-4, 1e-4, origin));
     println!("{}: W {:.4e} mm3, {:.4} m/s", row.name, reference.volume, reference.speed);
     let mut missed = Vec::new();
     let mut compare = |what: String, seen: Outcome, limits: [f64; 2]| {
@@ -108,6 +150,8 @@ rows! {
     a_motor_driven_scratch: 5,
     a_struck_stack: 6,
     a_rolling_clump: 7,
+    a_dumbbell_as_an_articulation: 8,
+    a_pendulum_as_an_articulation: 9,
 }
 
 /// Fails for a body that wears nothing because it slept when it was struck.
