@@ -2,6 +2,7 @@
 
 use abrade::{Met, PhysicsError, Placed, State};
 use rapier::dynamics::{GenericJoint, Multibody, MultibodyJoint, RigidBody, RigidBodyHandle};
+use rapier::geometry::{Collider, ColliderSet};
 use rapier::math::Vector;
 use rapier::pipeline::{ActiveHooks, PhysicsWorld};
 
@@ -19,6 +20,8 @@ const COARSEST: f64 = 16.0;
 /// step Rapier's joints are straight.
 const TURN_HELD: f64 = 0.002;
 const TURN_FREE: f64 = 0.1;
+/// Share of its radius or inertia by which a round body may be off.
+const ROUND: f64 = 1e-6;
 /// Iterations of the solver in the first step.
 const FIRST: usize = 32;
 /// A contact at rest is struck when its impulse exceeds what it carried before by this factor.
@@ -53,6 +56,9 @@ pub struct Island {
     pairs: Pairs,
     rewind: Rewind,
     settings: IslandSettings,
+    /// Bodies whose turning matters, and the angle by which they turn in a step at most [rad].
+    turning: Vec<RigidBodyHandle>,
+    turn: f64,
     /// Longest step [s].
     coarsest: f64,
     /// It has not taken a step yet.
@@ -74,8 +80,8 @@ impl Island {
         for (_, joint) in world.impulse_joints.iter_mut() {
             refine_joint(&mut joint.data);
         }
-        let chains: Vec<_> = chains(&world.multibody_joints).map(|(index, _)| index).collect();
-        for index in chains {
+        let indices: Vec<_> = chains(&world.multibody_joints).map(|(index, _)| index).collect();
+        for index in indices {
             let multibody = world.multibody_joints.get_multibody_mut(index);
             multibody.into_iter().flat_map(Multibody::links_mut).for_each(|link| {
                 refine_joint(&mut link.joint.data);
@@ -97,6 +103,16 @@ impl Island {
         // No time passes: bodies get their masses, joints their places.
         world.integration_parameters.dt = 0.0;
         world.step_with_events(&filter, &());
+        let joints = &world.multibody_joints;
+        let is_held = !world.impulse_joints.is_empty() || chains(joints).next().is_some();
+        let matters = |(handle, rb): (RigidBodyHandle, &RigidBody)| {
+            let own = wearers.iter().find(|wearer| wearer.handle == handle);
+            let is_round =
+                is_round(rb, &world.colliders) && own.is_none_or(|own| own.is_ball(ROUND));
+            (is_held || !is_round).then_some(handle)
+        };
+        let turning = world.bodies.iter().filter_map(matters).collect();
+        let turn = if is_held { TURN_HELD } else { TURN_FREE };
         Self {
             world,
             wearers,
@@ -105,6 +121,8 @@ impl Island {
             pairs,
             rewind,
             settings,
+            turning,
+            turn,
             coarsest: 0.0,
             is_new: true,
             is_out: false,
@@ -198,11 +216,8 @@ impl Island {
 
     /// Longest step in which no body turns too far [s].
     fn turning(&self) -> f64 {
-        let spins = self.world.bodies.iter().map(|(_, rb)| rb.angvel().length());
-        let joints = &self.world.multibody_joints;
-        let is_held = !self.world.impulse_joints.is_empty() || chains(joints).next().is_some();
-        let turn = if is_held { TURN_HELD } else { TURN_FREE };
-        turn / spins.fold(0.0, f64::max)
+        let turning = self.turning.iter().filter_map(|handle| self.world.bodies.get(*handle));
+        self.turn / turning.map(|rb| rb.angvel().length()).fold(0.0, f64::max)
     }
 
     /// A step of at most `h` [s]; returns its length.
@@ -347,6 +362,19 @@ impl Island {
     pub fn into_wearers(self) -> Vec<Wearer> {
         self.wearers
     }
+}
+
+/// True for a body that looks the same however it turns, to contacts and to its own inertia.
+fn is_round(rb: &RigidBody, colliders: &ColliderSet) -> bool {
+    let centre = rb.local_center_of_mass();
+    let is_centred = |collider: &Collider| {
+        let at = collider.position_wrt_parent().map_or(centre, |place| place.translation);
+        collider.shape().as_ball().is_some_and(|ball| (at - centre).length() < ROUND * ball.radius)
+    };
+    let inertia = rb.mass_properties().local_mprops.principal_inertia();
+    let (least, most) = (inertia.min_element(), inertia.max_element());
+    most - least <= ROUND * most
+        && rb.colliders().iter().filter_map(|own| colliders.get(*own)).all(is_centred)
 }
 
 /// Impulse of a body's contacts with proxies in the last step [N s].

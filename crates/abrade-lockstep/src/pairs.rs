@@ -3,6 +3,7 @@
 
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{Aabb, Collider, ColliderHandle};
+use rapier::parry::query::{ClosestPoints, closest_points};
 use rapier::pipeline::PhysicsWorld;
 
 use crate::filter::Proxy;
@@ -47,8 +48,7 @@ impl Pairs {
         let limit = |[first, second]: &[ColliderHandle; 2]| {
             let [a, b] = [first, second].map(|handle| world.colliders.get(*handle));
             let (Some(a), Some(b)) = (a, b) else { return h };
-            let (box_a, box_b) = (a.compute_aabb(), b.compute_aabb());
-            gap(&box_a, &box_b).max(sight) / approach(world, [a, b])
+            free_time(world, [a, b], sight, h)
         };
         self.list.iter().map(limit).fold(h, f64::min)
     }
@@ -71,18 +71,49 @@ fn linked(
         || link.is_some_and(|(_, _, link)| !link.joint().data.contacts_enabled)
 }
 
+/// Time, of at most `h` [s], in which two colliders do not meet, or come no closer than `sight` [m].
+fn free_time(world: &PhysicsWorld, pair: [&Collider; 2], sight: f64, h: f64) -> f64 {
+    let [a, b] = pair.map(|c| body(world, c.parent()));
+    let velocity = |rb: Option<&RigidBody>| rb.map(RigidBody::linvel).unwrap_or_default();
+    let relative = velocity(b) - velocity(a);
+    let turning = |(rb, c): (Option<&RigidBody>, &Collider)| {
+        rb.map_or(0.0, |rb| rb.angvel().length() * farthest(rb, c))
+    };
+    let turning = turning((a, pair[0])) + turning((b, pair[1]));
+    let boxes = pair.map(Collider::compute_aabb);
+    let any = relative.length() + turning;
+    let far = gap(&boxes[0], &boxes[1]) / any;
+    if far >= h {
+        return h;
+    }
+    let [p, q] = pair.map(|c| (c.position(), c.shape()));
+    let reach = sight + any * h;
+    match closest_points(p.0, p.1, q.0, q.1, reach) {
+        Ok(ClosestPoints::Disjoint) => h,
+        Ok(ClosestPoints::WithinMargin(on_a, on_b)) => {
+            let way = on_a - on_b;
+            let distance = way.length();
+            // The distance of convex shapes on straight ways stays above its tangent.
+            let closing = match p.1.is_convex() && q.1.is_convex() && distance > 0.0 {
+                true => relative.dot(way) / distance + turning,
+                false => any,
+            };
+            if closing > 0.0 { (distance.max(sight) / closing).min(h) } else { h }
+        }
+        Ok(ClosestPoints::Intersecting) => sight / any,
+        Err(_) => far.max(sight / any),
+    }
+}
+
 /// Distance of two boxes [m]; zero if they meet.
 fn gap(a: &Aabb, b: &Aabb) -> f64 {
     let apart = (b.mins - a.maxs).max(a.mins - b.maxs);
     apart.max(rapier::math::Vector::ZERO).length()
 }
 
-/// Bound of the speed at which two colliders near each other [m/s].
-fn approach(world: &PhysicsWorld, pair: [&Collider; 2]) -> f64 {
-    let [a, b] = pair.map(|c| (body(world, c.parent()), c.compute_aabb().half_extents().length()));
-    let velocity = |rb: Option<&RigidBody>| rb.map(RigidBody::linvel).unwrap_or_default();
-    let turning = |(rb, radius): (Option<&RigidBody>, f64)| {
-        rb.map_or(0.0, |rb| rb.angvel().length() * radius)
-    };
-    (velocity(a.0) - velocity(b.0)).length() + turning(a) + turning(b)
+/// Distance within which a collider lies about the centre of mass of its body [m].
+fn farthest(rb: &RigidBody, collider: &Collider) -> f64 {
+    let own = collider.compute_aabb();
+    let (low, high) = (own.mins - rb.center_of_mass(), own.maxs - rb.center_of_mass());
+    low.abs().max(high.abs()).length()
 }

@@ -99,7 +99,6 @@ impl WearWorld {
 fn run(tracked: &mut Tracked, scene: &Scene<'_>) -> Option<Ahead> {
     let start = scene.start(tracked).ok()??;
     let way = start.way(scene.world, scene.obstacles)?;
-    way.on_course(&start.course, scene.dt).is_none().then_some(())?;
     let encounter = scene.encounter(&start, tracked).ok()?;
     let errand = scene.errand(way, &start, Until::Duration);
     Ahead::run(&start, encounter, tracked, scene, &errand).ok()

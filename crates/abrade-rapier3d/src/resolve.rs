@@ -137,9 +137,6 @@ impl WearWorld {
             self.closed += tracked.end(&mut self.events);
         }
         let Some(way) = start.way(world, &self.obstacles) else { return Ok(()) };
-        if let Some(refusal) = way.on_course(&start.course, dt) {
-            return Err(refusal.into());
-        }
         let mut errand = scene.errand(way, &start, until);
         let ahead = ahead.filter(|ahead| ahead.holds(&self.changed, &self.surfaces));
         let how = scene.how(ahead, &start, tracked, &errand, observer.watches())?;

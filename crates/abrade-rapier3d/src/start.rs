@@ -129,8 +129,9 @@ impl Scene<'_> {
         Errand { way, loads, dt: self.dt, until, in_parts: false }
     }
 
-    /// How to carry the body. Where it could reach something, it is first run as if it were
-    /// alone; if it was then where something else is, it has to look where it goes.
+    /// How to carry the body. Where it could reach something, it is run as if it were alone. If it
+    /// was then where something else is, it has to look where it goes; something that it would run
+    /// into before it meets a surface refuses it.
     pub fn how(
         &self,
         ahead: Option<Box<Ahead>>,
@@ -138,22 +139,24 @@ impl Scene<'_> {
         tracked: &Tracked,
         errand: &Errand<'_>,
         is_watched: bool,
-    ) -> Result<How, PhysicsError> {
+    ) -> Result<How, Left> {
         let way = &errand.way;
-        let is_free = || way.in_reach(&start.course, self.dt).is_none();
-        let keeps_clear = |ahead: &Ahead| way.on_track(&ahead.track).is_none();
-        if let Some(ahead) = ahead {
-            let good = keeps_clear(&ahead) || is_free();
-            return Ok(if good { How::Done(ahead) } else { How::Parts });
-        }
-        if is_free() {
+        if ahead.is_none() && way.in_reach(&start.course, self.dt).is_none() {
             return Ok(How::Whole);
         }
-        let encounter = self.encounter(start, tracked)?;
-        match Ahead::run(start, encounter, tracked, self, errand) {
-            Ok(ahead) if keeps_clear(&ahead) && is_watched => Ok(How::Whole),
-            Ok(ahead) if keeps_clear(&ahead) => Ok(How::Done(Box::new(ahead))),
-            _ => Ok(How::Parts),
+        let run = || {
+            let encounter = self.encounter(start, tracked)?;
+            Ahead::run(start, encounter, tracked, self, errand).map(Box::new)
+        };
+        match ahead.map_or_else(run, Ok) {
+            Ok(ahead) if way.on_track(&ahead.track).is_none() => match is_watched {
+                true => Ok(How::Whole),
+                false => Ok(How::Done(ahead)),
+            },
+            _ => match way.on_course(&start.course, self.dt) {
+                Some(refusal) => Err(refusal.into()),
+                None => Ok(How::Parts),
+            },
         }
     }
 }
