@@ -1,8 +1,9 @@
 //! Random scenes of mixed bodies, joints included: nothing gains energy, sinks through, or is
 //! thrown.
 //!
-//! Four scenes of a second and a half in the normal tests; a thousand of ten seconds with
-//! `cargo test --release -p abrade-rapier3d --test contacts_f32 -- --ignored soak --nocapture`.
+//! Four scenes of a second and a half in the normal tests; a thousand of ten seconds, or as many as
+//! `SOAK` says, with
+//! `cargo test --release -p abrade-rapier3d --test contacts_f32 -- --ignored soak_of --nocapture`.
 
 use crate::plugin::rapier::prelude::*;
 use crate::plugin::{Resolve, scalar};
@@ -163,15 +164,21 @@ fn run(seed: u64, seconds: f64) -> Result<[u64; 5], String> {
 }
 
 fn soak(seeds: std::ops::Range<u64>, seconds: f64) {
-    let mut faults = Vec::new();
-    let mut counts = [0; 5];
-    for seed in seeds {
-        match run(seed, seconds) {
+    let threads = std::thread::available_parallelism().map_or(1, |n| n.get());
+    let (mut faults, mut counts) = (Vec::new(), [0; 5]);
+    let part = |first: usize| {
+        let own = seeds.clone().skip(first).step_by(threads);
+        own.map(|seed| run(seed, seconds).inspect_err(|fault| println!("{fault}")))
+            .collect::<Vec<_>>()
+    };
+    let results: Vec<_> = std::thread::scope(|scope| {
+        let parts: Vec<_> = (0..threads).map(|first| scope.spawn(move || part(first))).collect();
+        parts.into_iter().flat_map(|part| part.join().expect("no panic")).collect()
+    });
+    for result in results {
+        match result {
             Ok(seen) => counts.iter_mut().zip(seen).for_each(|(sum, n)| *sum += n),
-            Err(fault) => {
-                println!("{fault}");
-                faults.push(fault);
-            }
+            Err(fault) => faults.push(fault),
         }
     }
     println!("body steps by micro, quasi-static, lockstep, none; outside the model: {counts:?}");
