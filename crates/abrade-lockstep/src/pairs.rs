@@ -11,6 +11,16 @@ use crate::filter::Proxy;
 /// The pairs of an island, found once.
 pub(crate) struct Pairs {
     list: Vec<[ColliderHandle; 2]>,
+    /// Those that could meet in the step under way.
+    near: Vec<Near>,
+}
+
+/// Two colliders that are close.
+struct Near {
+    /// What is between them [m].
+    distance: f64,
+    /// Speed at which that becomes less, at most [m/s].
+    closing: f64,
 }
 
 impl Pairs {
@@ -35,22 +45,31 @@ impl Pairs {
                 }
             }
         }
-        Self { list }
+        Self { list, near: Vec::new() }
     }
 
     /// The longest step of at most `h` [s] in which Rapier sees every contact coming.
-    pub fn limit(&self, h: f64, world: &PhysicsWorld) -> f64 {
-        let sight = 0.5 * world.integration_parameters.prediction_distance();
+    pub fn limit(&mut self, h: f64, world: &PhysicsWorld) -> f64 {
+        let prediction = world.integration_parameters.prediction_distance();
+        let sight = 0.5 * prediction;
         let speeds = world.bodies.iter().map(|(_, rb)| rb.linvel().length());
-        if self.list.is_empty() || 2.0 * h * speeds.fold(0.0, f64::max) < sight {
+        let top = 2.0 * speeds.fold(0.0, f64::max);
+        if self.list.is_empty() || top * h < sight {
             return h;
         }
-        let limit = |[first, second]: &[ColliderHandle; 2]| {
-            let [a, b] = [first, second].map(|handle| world.colliders.get(*handle));
-            let (Some(a), Some(b)) = (a, b) else { return h };
-            free_time(world, [a, b], sight, h)
+        self.near.clear();
+        for pair in &self.list {
+            if let [Some(a), Some(b)] = pair.map(|handle| world.colliders.get(handle)) {
+                self.near.extend(near(world, [a, b], sight, h));
+            }
+        }
+        // A blow makes others faster than they are: no pair is taken for slow in its step.
+        let strikes = self.near.iter().any(|n| n.distance <= prediction && n.closing > 0.0);
+        let limit = |n: &Near| {
+            let closing = if strikes { n.closing.max(top) } else { n.closing };
+            if closing > 0.0 { n.distance.max(sight) / closing } else { h }
         };
-        self.list.iter().map(limit).fold(h, f64::min)
+        self.near.iter().map(limit).fold(h, f64::min)
     }
 }
 
@@ -71,8 +90,8 @@ fn linked(
         || link.is_some_and(|(_, _, link)| !link.joint().data.contacts_enabled)
 }
 
-/// Time, of at most `h` [s], in which two colliders do not meet, or come no closer than `sight` [m].
-fn free_time(world: &PhysicsWorld, pair: [&Collider; 2], sight: f64, h: f64) -> f64 {
+/// What two colliders are to each other, unless they stay more than `sight` [m] apart for `h` [s].
+fn near(world: &PhysicsWorld, pair: [&Collider; 2], sight: f64, h: f64) -> Option<Near> {
     let [a, b] = pair.map(|c| body(world, c.parent()));
     let velocity = |rb: Option<&RigidBody>| rb.map(RigidBody::linvel).unwrap_or_default();
     let relative = velocity(b) - velocity(a);
@@ -80,28 +99,28 @@ fn free_time(world: &PhysicsWorld, pair: [&Collider; 2], sight: f64, h: f64) -> 
         rb.map_or(0.0, |rb| rb.angvel().length() * farthest(rb, c))
     };
     let turning = turning((a, pair[0])) + turning((b, pair[1]));
+    let top = relative.length() + turning;
+    let reach = sight + top * h;
     let boxes = pair.map(Collider::compute_aabb);
-    let any = relative.length() + turning;
-    let far = gap(&boxes[0], &boxes[1]) / any;
-    if far >= h {
-        return h;
+    let apart = gap(&boxes[0], &boxes[1]);
+    if apart > reach {
+        return None;
     }
     let [p, q] = pair.map(|c| (c.position(), c.shape()));
-    let reach = sight + any * h;
     match closest_points(p.0, p.1, q.0, q.1, reach) {
-        Ok(ClosestPoints::Disjoint) => h,
+        Ok(ClosestPoints::Disjoint) => None,
         Ok(ClosestPoints::WithinMargin(on_a, on_b)) => {
             let way = on_a - on_b;
             let distance = way.length();
             // The distance of convex shapes on straight ways stays above its tangent.
             let closing = match p.1.is_convex() && q.1.is_convex() && distance > 0.0 {
                 true => relative.dot(way) / distance + turning,
-                false => any,
+                false => top,
             };
-            if closing > 0.0 { (distance.max(sight) / closing).min(h) } else { h }
+            Some(Near { distance, closing })
         }
-        Ok(ClosestPoints::Intersecting) => sight / any,
-        Err(_) => far.max(sight / any),
+        Ok(ClosestPoints::Intersecting) => Some(Near { distance: 0.0, closing: top }),
+        Err(_) => Some(Near { distance: apart, closing: top }),
     }
 }
 
