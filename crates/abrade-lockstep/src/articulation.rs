@@ -4,6 +4,9 @@
 use abrade::State;
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 
+/// Angle by which a sum of turns may differ from one turn that does the same [rad].
+const ONE_TURN: f64 = 1e-5;
+
 /// The joint between a link and its parent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkJoint {
@@ -34,7 +37,19 @@ impl Default for Coordinates {
     }
 }
 
+impl Coordinates {
+    /// True when the angles are those of one turn from the parent's frame, and no sum of several.
+    pub fn is_one_turn(&self) -> bool {
+        (self.rotation.scaled_axis() - self.about).norm() < ONE_TURN
+    }
+}
+
 impl LinkJoint {
+    /// True for a joint without a locked rotation.
+    pub fn turns_freely(&self) -> bool {
+        self.locked[1] == [false; 3]
+    }
+
     /// From the bits of Rapier's `JointAxesMask` and the frames.
     pub fn new(locked: u8, frames: [Isometry3<f64>; 2]) -> Self {
         let is_locked = |part: usize, axis: usize| locked >> (3 * part + axis) & 1 == 1;

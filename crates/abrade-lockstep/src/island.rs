@@ -16,8 +16,8 @@ use crate::wearer::Wearer;
 
 /// Parts of an advance that no step is longer than.
 const COARSEST: f64 = 16.0;
-/// Angle [rad] by which no body turns in a step, where joints hold and where none does: within a
-/// step Rapier's joints are straight.
+/// Angle [rad] by which no body turns in a step, where joints hold and where none does, round bodies
+/// apart: within a step Rapier's joints are straight.
 const TURN_HELD: f64 = 0.002;
 const TURN_FREE: f64 = 0.1;
 /// Share of its radius or inertia by which a round body may be off.
@@ -234,6 +234,7 @@ impl Island {
             // Without the impulses of a step before, one iteration does not reach through a joint.
             parameters.num_internal_pgs_iterations = if self.is_new { FIRST } else { 1 };
             self.world.step_with_events(&self.filter, &());
+            tell_links(&mut self.world);
             match self.follow(surfaces, h)? {
                 Met::Fits => break,
                 Met::TooLong(shorter) => {
@@ -364,8 +365,27 @@ impl Island {
     }
 }
 
+/// Tells the links of articulations the velocities that the step has given their joints: Rapier does
+/// so at the start of the next one.
+fn tell_links(world: &mut PhysicsWorld) {
+    for (_, multibody) in chains(&world.multibody_joints) {
+        let rates = multibody.generalized_velocity();
+        for link in multibody.links() {
+            let motion = multibody.body_jacobian(link.link_id()) * rates;
+            let [velocity, spin] =
+                [0, 3].map(|at| Vector::new(motion[at], motion[at + 1], motion[at + 2]));
+            if let Some(rb) = world.bodies.get_mut(link.rigid_body_handle())
+                && rb.is_dynamic()
+            {
+                rb.set_linvel(velocity, false);
+                rb.set_angvel(spin, false);
+            }
+        }
+    }
+}
+
 /// True for a body that looks the same however it turns, to contacts and to its own inertia.
-fn is_round(rb: &RigidBody, colliders: &ColliderSet) -> bool {
+pub(crate) fn is_round(rb: &RigidBody, colliders: &ColliderSet) -> bool {
     let centre = rb.local_center_of_mass();
     let is_centred = |collider: &Collider| {
         let at = collider.position_wrt_parent().map_or(centre, |place| place.translation);

@@ -23,16 +23,16 @@ impl Rewind {
     }
 
     /// Puts every body back where it was.
-    pub fn restore(&mut self, world: &mut PhysicsWorld) {
+    pub fn restore(&self, world: &mut PhysicsWorld) {
         for (handle, pose, linvel, angvel) in &self.saved {
             let Some(rb) = world.bodies.get_mut(*handle) else { continue };
             rb.set_position(*pose, false);
             rb.set_linvel(*linvel, false);
             rb.set_angvel(*angvel, false);
         }
-        for (index, multibody) in self.articulations.drain(..) {
-            if let Some(now) = world.multibody_joints.get_multibody_mut(index) {
-                *now = multibody;
+        for (index, multibody) in &self.articulations {
+            if let Some(now) = world.multibody_joints.get_multibody_mut(*index) {
+                now.clone_from(multibody);
             }
         }
     }

@@ -108,8 +108,13 @@ pub enum Refusal {
     /// A contact of its island was too stiff or too long for it.
     #[error("a contact of the island was too stiff, or took too many steps")]
     Stiff,
-    /// An articulation (Rapier's multibody) whose root is moved by the embedder.
-    #[error("the root of an articulation of the island is kinematic")]
+    /// An articulation (Rapier's multibody) that an island cannot hold: its root is kinematic, a link
+    /// is disabled, or a joint that turns freely has limits, motors or springs and has turned about
+    /// several axes.
+    #[error(
+        "an articulation of the island has a kinematic root, a disabled link, or a driven \
+             joint that has turned freely"
+    )]
     Multibody,
     /// Too many bodies hang together.
     #[error("more than {limit} bodies touch each other or are jointed")]

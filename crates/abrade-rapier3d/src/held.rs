@@ -80,11 +80,11 @@ fn link_velocity(body: RigidBodyHandle, joints: &MultibodyJointSet) -> Option<[V
     let link = joints.rigid_body_link(body)?;
     let multibody = joints.get_multibody(link.multibody)?;
     let (jacobian, rates) = (multibody.body_jacobian(link.id), multibody.generalized_velocity());
-    // Empty before its first step.
-    (jacobian.ncols() == rates.nrows()).then(|| {
-        let motion = jacobian * rates;
-        [0, 3].map(|first| Vector3::from_fn(|axis, _| scalar::wide(motion[first + axis])))
-    })
+    if jacobian.ncols() != rates.nrows() {
+        return None;
+    }
+    let motion = jacobian * rates;
+    Some([0, 3].map(|first| Vector3::from_fn(|axis, _| scalar::wide(motion[first + axis]))))
 }
 
 /// Impulse that Rapier's contacts with a proxy gave a body in the last step [N s], in the world.

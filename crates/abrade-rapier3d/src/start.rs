@@ -1,7 +1,7 @@
 //! A body at the beginning of a step, and how it is to be carried through it.
 
 use abrade::{Encounter, PhysicsError, State, Until};
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Vector3};
 use rapier::dynamics::RigidBodyHandle;
 
 use crate::ahead::Ahead;
@@ -98,13 +98,15 @@ impl Scene<'_> {
         let Some(&anchor) = surfaces.first() else { return Ok(None) };
         let Some(lie) = Lie::find(self.lies, anchor) else { return Ok(None) };
         let (frame, bounds) = (lie.pose, self.surfaces[anchor.0].bounds);
-        let course = Course::of(rb, tracked, &scalar::vector(self.world.gravity));
+        let mut course = Course::of(rb, tracked, &scalar::vector(self.world.gravity));
         let mut state = shadow::read(rb, tracked.shadow.as_ref(), &frame);
         let Known::Ready(known) = &mut tracked.known else { return Ok(None) };
         if is_new && !tracked.is_placed {
             // Rapier's contacts let bodies sink in.
             let depth = afloat::depth(known, &state, &self.surfaces[anchor.0]);
-            state.position.z += if depth < LIFT * tracked.radius { depth } else { 0.0 };
+            let lift = if depth < LIFT * tracked.radius { depth } else { 0.0 };
+            state.position.z += lift;
+            course.state.position += frame * Vector3::z() * lift;
         }
         known.state = state;
         Ok(Some(Start { body, surfaces, frame, bounds, state, course, is_new }))
@@ -141,7 +143,10 @@ impl Scene<'_> {
         is_watched: bool,
     ) -> Result<How, Left> {
         let way = &errand.way;
-        if ahead.is_none() && way.in_reach(&start.course, self.dt).is_none() {
+        // Loaded springs may throw the body farther than its speed tells.
+        let touches = tracked.live.as_ref().is_some_and(|live| live.encounter.in_contact());
+        let is_free = !touches && way.in_reach(&start.course, self.dt).is_none();
+        if ahead.is_none() && is_free {
             return Ok(How::Whole);
         }
         let run = || {
@@ -149,7 +154,7 @@ impl Scene<'_> {
             Ahead::run(start, encounter, tracked, self, errand).map(Box::new)
         };
         match ahead.map_or_else(run, Ok) {
-            Ok(ahead) if way.on_track(&ahead.track).is_none() => match is_watched {
+            Ok(ahead) if is_free || way.on_track(&ahead.track).is_none() => match is_watched {
                 true => Ok(How::Whole),
                 false => Ok(How::Done(ahead)),
             },

@@ -72,6 +72,7 @@ impl WearWorld {
         self.open(world.parameters);
         let gravity = scalar::vector(world.gravity);
         if !self.surfaces.is_empty() && self.current.dt > 0.0 {
+            world.join_new_articulations();
             self.choose(&mut world, &gravity);
             self.collect_obstacles(&world);
             let single = self.single_registered(world.bodies);

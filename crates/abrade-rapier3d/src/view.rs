@@ -1,7 +1,8 @@
 //! The parts of a physics world that choosing and resolving look at.
 
 use rapier::dynamics::{
-    ImpulseJointSet, IntegrationParameters, MultibodyJointSet, RigidBodyHandle, RigidBodySet,
+    ImpulseJointSet, IntegrationParameters, Multibody, MultibodyJointSet, RigidBodyHandle,
+    RigidBodySet,
 };
 use rapier::geometry::{ColliderSet, NarrowPhase};
 use rapier::math::Vector;
@@ -37,6 +38,23 @@ impl<'a> WorldView<'a> {
             impulse_joints: &world.impulse_joints,
             multibody_joints: &mut world.multibody_joints,
             narrow_phase: &world.narrow_phase,
+        }
+    }
+
+    /// Brings the bodies of articulations that have not been stepped yet to where their joints are,
+    /// as Rapier's step does.
+    pub(crate) fn join_new_articulations(&mut self) {
+        let is_new = |multibody: &Multibody| {
+            multibody.body_jacobian(0).ncols() != multibody.generalized_velocity().nrows()
+        };
+        let firsts = self.multibody_joints.iter().filter(|(_, link, _, _)| link.id == 1);
+        let new = firsts.filter(|(_, _, multibody, _)| is_new(multibody));
+        let new: Vec<_> = new.map(|(_, link, _, _)| link.multibody).collect();
+        for index in new {
+            if let Some(multibody) = self.multibody_joints.get_multibody_mut(index) {
+                multibody.forward_kinematics(self.bodies, true);
+                multibody.update_rigid_bodies(self.bodies, true);
+            }
         }
     }
 

@@ -6,7 +6,8 @@ use abrade_lockstep::rapier as fine;
 use abrade_lockstep::{Coordinates, Link, LinkJoint};
 use nalgebra::Vector3;
 use rapier::dynamics::{
-    Multibody, MultibodyIndex, MultibodyJoint, MultibodyJointSet, RigidBodyHandle, RigidBodySet,
+    JointAxesMask, Multibody, MultibodyIndex, MultibodyJoint, MultibodyJointSet, MultibodyLink,
+    RigidBodyHandle, RigidBodySet,
 };
 use rapier::math::DVector;
 
@@ -71,10 +72,27 @@ pub(crate) fn motion(
         let now = coordinates(own.joint());
         let to = joint.coordinates(&parent, &here, &now);
         let start = if from == Since::Now { now } else { Coordinates::default() };
+        if joint.turns_freely() && is_told_angles(multibody, own) && !to.is_one_turn() {
+            return None;
+        }
         displacement.extend(joint.way(&start, &to));
-        velocity.extend(joint.rates(&parent, &here));
+        match own.joint().kinematic {
+            true => velocity.extend(multibody.joint_velocity(own).iter().map(|v| scalar::wide(*v))),
+            false => velocity.extend(joint.rates(&parent, &here)),
+        }
     }
     Some(Motion { displacement, velocity })
+}
+
+/// Does anything ask a joint for its angles? Those of one that turns freely are sums over its way,
+/// which a copy does not know.
+fn is_told_angles(multibody: &Multibody, link: &MultibodyLink) -> bool {
+    let joint = link.joint();
+    let axes = JointAxesMask::ANG_AXES;
+    joint.data.limit_axes.intersects(axes)
+        || joint.data.motor_axes.intersects(axes)
+        || (3..6).any(|axis| joint.spring(axis).0 != 0.0)
+        || multibody.couplings().iter().any(|c| [c.link1, c.link2].contains(&link.link_id()))
 }
 
 fn read(joint: &MultibodyJoint) -> LinkJoint {

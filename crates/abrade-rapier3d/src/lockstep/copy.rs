@@ -54,7 +54,7 @@ pub(crate) fn copy(
     }
     for &handle in &members.standing {
         let Some(collider) = world.colliders.get(handle) else { continue };
-        copy.add_standing(handle, collider)?;
+        copy.add_standing(handle, collider, world)?;
     }
     copy.add_joints(world);
     for index in articulations(members, world.multibody_joints) {
@@ -116,10 +116,19 @@ impl Twin {
         Ok(())
     }
 
-    fn add_standing(&mut self, handle: ColliderHandle, collider: &Collider) -> Result<(), Refusal> {
-        let copied = widen::collider(collider, collider.position());
+    /// Adds a collider that stands, on its body if it has one: a joint may keep it from touching.
+    fn add_standing(
+        &mut self,
+        handle: ColliderHandle,
+        collider: &Collider,
+        world: &WorldView<'_>,
+    ) -> Result<(), Refusal> {
+        let body = collider.parent().zip(collider.position_wrt_parent());
+        let place = body.map_or(collider.position(), |(_, place)| place);
+        let copied = widen::collider(collider, place);
         let copied = copied.ok_or(Refusal::Shape { collider: handle })?;
-        let inner = self.world.insert_collider(copied, None);
+        let parent = body.map(|(body, _)| self.find_or_fix(body, world));
+        let inner = self.world.insert_collider(copied, parent);
         self.standing.insert(handle.into_raw_parts(), inner);
         Ok(())
     }
@@ -162,8 +171,13 @@ impl Twin {
         world: &WorldView<'_>,
         link: impl Fn(RigidBodyHandle) -> Option<Link>,
     ) -> Result<(), Refusal> {
-        let root = world.bodies.get(multibody.root().rigid_body_handle());
-        if root.is_none_or(RigidBody::is_kinematic) {
+        let is_copied = |body: RigidBodyHandle| self.bodies.contains_key(&body.into_raw_parts());
+        let mut links = multibody.links().map(|link| link.rigid_body_handle());
+        let root = links.next();
+        let stands = |body| world.bodies.get(body).is_some_and(RigidBody::is_fixed);
+        let moves = |body| world.bodies.get(body).is_some_and(RigidBody::is_dynamic);
+        let fits = root.is_some_and(|root| stands(root) || is_copied(root) && moves(root));
+        if !fits || !links.all(is_copied) {
             return Err(Refusal::Multibody);
         }
         let motion = motion(multibody, Since::Origin, link).ok_or(Refusal::Multibody)?;

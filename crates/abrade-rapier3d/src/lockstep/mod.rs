@@ -206,7 +206,8 @@ impl WearWorld {
             motion.apply(multibody, world.bodies);
         }
         for &body in &members.bodies {
-            let Some(rb) = world.bodies.get(body).filter(|rb| rb.is_dynamic()) else { continue };
+            let moved = world.bodies.get(body).filter(|rb| rb.is_dynamic() && end(body).is_some());
+            let Some(rb) = moved else { continue };
             let tracked = Tracked::slot(&mut self.bodies, body);
             // An articulation closes its joints over the states, within roundings.
             let exact = |shadow: &Shadow| Shadow::of(rb, shadow.frame, shadow.state);
