@@ -22,7 +22,7 @@ const TURN_HELD: f64 = 0.002;
 const TURN_FREE: f64 = 0.1;
 /// Share of its radius or inertia by which a round body may be off.
 const ROUND: f64 = 1e-6;
-/// Iterations of the solver in the first step.
+/// Iterations of the solver in a step that begins without known impulses, or has a blow.
 const FIRST: usize = 32;
 /// A contact at rest is struck when its impulse exceeds what it carried before by this factor.
 const STRUCK: f64 = 1.5;
@@ -61,8 +61,8 @@ pub struct Island {
     turn: f64,
     /// Longest step [s].
     coarsest: f64,
-    /// It has not taken a step yet.
-    is_new: bool,
+    /// Length of the last step [s], if its impulses are those of the next one but for their length.
+    known: Option<f64>,
     /// Its budget is spent: nothing wakes it.
     is_out: bool,
 }
@@ -124,7 +124,7 @@ impl Island {
             turning,
             turn,
             coarsest: 0.0,
-            is_new: true,
+            known: None,
             is_out: false,
         }
     }
@@ -223,6 +223,7 @@ impl Island {
     /// A step of at most `h` [s]; returns its length.
     fn step(&mut self, surfaces: &mut [Placed<'_>], h: f64) -> Result<f64, PhysicsError> {
         let mut h = h;
+        let mut known = self.known;
         self.rewind.save(&self.world);
         loop {
             if h < f64::MIN_POSITIVE / f64::EPSILON {
@@ -231,19 +232,23 @@ impl Island {
             self.push(surfaces, h);
             let parameters = &mut self.world.integration_parameters;
             parameters.dt = h;
-            // Without the impulses of a step before, one iteration does not reach through a joint.
-            parameters.num_internal_pgs_iterations = if self.is_new { FIRST } else { 1 };
+            // The impulses of the step before are those of its length; those of a blow, or of a step
+            // that was taken back, say nothing. Without them one iteration does not reach through a
+            // joint or a stack.
+            parameters.warmstart_coefficient = known.map_or(0.0, |last| (h / last).min(1.0));
+            let alone = known.is_some() && !self.pairs.strikes;
+            parameters.num_internal_pgs_iterations = if alone { 1 } else { FIRST };
             self.world.step_with_events(&self.filter, &());
             tell_links(&mut self.world);
             match self.follow(surfaces, h)? {
                 Met::Fits => break,
                 Met::TooLong(shorter) => {
                     self.rewind.restore(&mut self.world);
-                    h = shorter;
+                    (h, known) = (shorter, None);
                 }
             }
         }
-        self.is_new = false;
+        self.known = (!self.pairs.strikes).then_some(h);
         self.watch_calm(surfaces, h);
         Ok(h)
     }

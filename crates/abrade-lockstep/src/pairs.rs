@@ -20,6 +20,8 @@ pub(crate) struct Pairs {
     radii: Vec<(RigidBodyHandle, f64)>,
     /// Those that could meet in the step under way.
     near: Vec<Near>,
+    /// Some come together in it.
+    pub strikes: bool,
 }
 
 /// Two colliders that are close.
@@ -52,11 +54,12 @@ impl Pairs {
                 }
             }
         }
-        Self { list, radii: radii(world), near: Vec::new() }
+        Self { list, radii: radii(world), near: Vec::new(), strikes: false }
     }
 
     /// The longest step of at most `h` [s] in which Rapier sees every contact coming.
     pub fn limit(&mut self, h: f64, world: &PhysicsWorld) -> f64 {
+        self.strikes = false;
         let prediction = world.integration_parameters.prediction_distance();
         let sight = 0.5 * prediction;
         let speed = |(handle, radius): &(RigidBodyHandle, f64)| {
@@ -73,10 +76,10 @@ impl Pairs {
             }
         }
         // A blow makes others faster than they are: no pair is taken for slow in its step.
-        let strikes =
+        self.strikes =
             self.near.iter().any(|n| n.distance <= prediction && n.closing > STRIKES * top);
         let limit = |n: &Near| {
-            let closing = if strikes { n.closing.max(top) } else { n.closing };
+            let closing = if self.strikes { n.closing.max(top) } else { n.closing };
             if closing > 0.0 { n.distance.max(sight) / closing } else { h }
         };
         self.near.iter().map(limit).fold(h, f64::min)
