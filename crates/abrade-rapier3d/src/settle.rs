@@ -21,11 +21,8 @@ use crate::{afloat, scalar, shadow, steer};
 /// Growth of the impulse of a contact from one step to the next that is no blow.
 const GROWTH: f64 = 1.5;
 
-/// Share of Rapier's geometric slop by which a body may lie in a surface.
-const SLACK: f64 = 0.1;
-/// Weights above which a load is more than Rapier's contact stands.
-const HEAVY: f64 = 3.0;
-/// Share of its radius that a body under a lighter load may sink.
+/// Share of its radius that a body may sink under a load before it is lifted: a lift that follows
+/// every little sinking keeps it awake, and rocks what lies on a face.
 const SUNK: f64 = 0.1;
 
 impl WearWorld {
@@ -195,15 +192,6 @@ impl WearWorld {
         if world.multibody_joints.rigid_body_link(held.body).is_some() {
             return;
         }
-        let Some(rb) = world.bodies.get(held.body) else { return };
-        let tracked = Tracked::slot(&mut self.bodies, held.body);
-        let load: f64 = tracked.borne.iter().map(|(_, load)| load).sum();
-        let weight = scalar::wide(rb.mass()) * held.rest_speed / self.current.dt;
-        // What a body's own weight makes it sink is Rapier's affair: a lift would keep it awake.
-        let slack = match load > HEAVY * weight {
-            true => SLACK * scalar::wide(world.parameters.allowed_linear_error()),
-            false => SUNK * tracked.radius,
-        };
         for id in &held.surfaces {
             let tracked = Tracked::slot(&mut self.bodies, held.body);
             let lie = Lie::find(&self.lies, *id);
@@ -215,7 +203,7 @@ impl WearWorld {
             let before =
                 self.before.of(held.body).map_or(0.0, |b| b.seen_from(&lie.pose).position.z);
             let sunk = (before - state.position.z).max(0.0) + body.shape.bounding_radius();
-            if depth > slack
+            if depth > SUNK * tracked.radius
                 && depth < sunk
                 && let Some(rb) = world.bodies.get_mut(held.body)
             {
