@@ -42,8 +42,11 @@ impl Scene<'_> {
             let surface = &self.surfaces[id.0].surface;
             holds(surface.laws(), surface.nodes().rest_area[0], load)
         };
-        let speed = course.state.velocity.norm() + course.state.spin.norm() * tracked.radius;
-        speed < CREEP * rest_speed || tracked.near.iter().all(firm)
+        let limit = CREEP * rest_speed;
+        let stays = |id: &SurfaceId| {
+            self.frame(*id).is_some_and(|frame| along(&course, &frame, tracked.radius) < limit)
+        };
+        tracked.near.iter().all(|id| stays(id) || firm(id))
     }
 
     /// How a body comes down on its surfaces in this step, if it does.
@@ -60,4 +63,12 @@ impl Scene<'_> {
     fn frame(&self, id: SurfaceId) -> Option<Isometry3<f64>> {
         Lie::find(self.lies, id).map(|lie| lie.pose)
     }
+}
+
+/// Speed at which the points of a body of `radius` [m] move along the plane of `frame` [m/s], unless
+/// it tilts.
+fn along(course: &Course, frame: &Isometry3<f64>, radius: f64) -> f64 {
+    let velocity = frame.inverse_transform_vector(&course.state.velocity);
+    let spin = frame.inverse_transform_vector(&course.state.spin);
+    velocity.xy().norm() + spin.z.abs() * radius
 }

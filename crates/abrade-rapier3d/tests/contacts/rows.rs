@@ -60,6 +60,22 @@ pub fn loaded_ball(case: Case) -> Outcome {
     rig.outcome(ball)
 }
 
+/// A box of 10 kg with a face of 1 cm2 under a load that grows to 0.8 of what the ground bears.
+pub fn pressed_box(case: Case) -> (Outcome, f64) {
+    let plate = Plate { length: 40e-3, width: 40e-3, pitch: 0.2e-3, hardness: 5e6, young: 250e6 };
+    let mut rig = Rig::new(case, &plate, down(), 0.01);
+    let body = rig.body(Vector3::z() * 5e-3);
+    let body = rig.block(body, [5e-3; 3], 1e7);
+    rig.run(1.0, |rig| {
+        let load = 300.0 * (3.0 * rig.time).min(1.0);
+        let rb = &mut rig.world.bodies[body];
+        rb.reset_forces(true);
+        rb.add_force(vector(0.0, 0.0, -load), true);
+    });
+    let tilt = scalar::rotation(rig.world.bodies[body].rotation()).angle();
+    (rig.outcome(body), tilt)
+}
+
 /// A block of `density` that comes down at 2 m/s on a ball that lies on the plate.
 fn block_on_ball(case: Case, density: f64, sleeps: bool) -> Outcome {
     let plate = Plate { length: 20e-3, width: 10e-3, pitch: 0.1e-3, hardness: 1.7e9, young: 200e9 };
