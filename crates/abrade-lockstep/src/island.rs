@@ -22,8 +22,10 @@ const TURN_HELD: f64 = 0.002;
 const TURN_FREE: f64 = 0.1;
 /// Share of its radius or inertia by which a round body may be off.
 const ROUND: f64 = 1e-6;
-/// Iterations of the solver in a step that begins without known impulses, or has a blow.
-const FIRST: usize = 32;
+/// Iterations of the solver in a step that begins without known impulses, in which a light body may
+/// bear a heavy one, and in a step that has a blow.
+const FIRST: usize = 256;
+const BLOW: usize = 32;
 /// A contact at rest is struck when its impulse exceeds what it carried before by this factor.
 const STRUCK: f64 = 1.5;
 
@@ -236,8 +238,11 @@ impl Island {
             // that was taken back, say nothing. Without them one iteration does not reach through a
             // joint or a stack.
             parameters.warmstart_coefficient = known.map_or(0.0, |last| (h / last).min(1.0));
-            let alone = known.is_some() && !self.pairs.strikes;
-            parameters.num_internal_pgs_iterations = if alone { 1 } else { FIRST };
+            parameters.num_internal_pgs_iterations = match known {
+                _ if self.pairs.strikes => BLOW,
+                Some(_) => 1,
+                None => FIRST,
+            };
             self.world.step_with_events(&self.filter, &());
             tell_links(&mut self.world);
             match self.follow(surfaces, h)? {

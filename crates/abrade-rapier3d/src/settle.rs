@@ -21,8 +21,8 @@ use crate::{afloat, scalar, shadow, steer};
 /// Growth of the impulse of a contact from one step to the next that is no blow.
 const GROWTH: f64 = 1.5;
 
-/// Share of its radius that a body may sink under a load before it is lifted: a lift that follows
-/// every little sinking keeps it awake, and rocks what lies on a face.
+/// Share of the height of its centre of mass that a body may sink under a load before it is lifted:
+/// a lift that follows every little sinking keeps it awake, and rocks what lies on a face.
 const SUNK: f64 = 0.1;
 
 impl WearWorld {
@@ -110,8 +110,12 @@ impl WearWorld {
             Ok((shares, done)) => {
                 self.counters.steps += done.steps;
                 for share in shares {
-                    let reason = held.iter().find(|h| h.body == share.body).map(|h| h.reason);
-                    self.book_share(share, reason);
+                    let held = held.iter().find(|h| h.body == share.body);
+                    self.book_share(share, held.map(|h| h.reason));
+                    // One on its springs is where it should be.
+                    if let Some(held) = held.filter(|held| self.rests_in_island(held.body)) {
+                        self.keep_afloat(held, world);
+                    }
                 }
                 (bodies, true)
             }
@@ -186,6 +190,12 @@ impl WearWorld {
         self.keep_afloat(held, world);
     }
 
+    /// True for a body that its island has left at rest, on a contact of Rapier's.
+    fn rests_in_island(&self, body: RigidBodyHandle) -> bool {
+        let tracked = Tracked::find(&self.bodies, body);
+        tracked.and_then(|t| t.wearer.as_ref()).is_some_and(|(_, wearer)| wearer.rests())
+    }
+
     /// Lifts a body to the surface where Rapier let it sink.
     fn keep_afloat(&mut self, held: &Held, world: &mut WorldView<'_>) {
         // A link is where its joints put it.
@@ -202,8 +212,9 @@ impl WearWorld {
             let depth = afloat::depth(body, &state, &self.surfaces[id.0]);
             let before =
                 self.before.of(held.body).map_or(0.0, |b| b.seen_from(&lie.pose).position.z);
+            let height = -body.shape.lowest(&state.rotation, &Vector3::z());
             let sunk = (before - state.position.z).max(0.0) + body.shape.bounding_radius();
-            if depth > SUNK * tracked.radius
+            if depth > SUNK * height
                 && depth < sunk
                 && let Some(rb) = world.bodies.get_mut(held.body)
             {
