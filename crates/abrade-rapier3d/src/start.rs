@@ -145,8 +145,8 @@ impl Scene<'_> {
         let way = &errand.way;
         // Loaded springs may throw the body farther than its speed tells.
         let touches = tracked.live.as_ref().is_some_and(|live| live.encounter.in_contact());
-        let is_free = !touches && way.in_reach(&start.course, self.dt).is_none();
-        if ahead.is_none() && is_free {
+        let is_free = || !touches && way.in_reach(&start.course, self.dt).is_none();
+        if ahead.is_none() && is_free() {
             return Ok(How::Whole);
         }
         let run = || {
@@ -154,7 +154,7 @@ impl Scene<'_> {
             Ahead::run(start, encounter, tracked, self, errand).map(Box::new)
         };
         match ahead.map_or_else(run, Ok) {
-            Ok(ahead) if is_free || way.on_track(&ahead.track).is_none() => match is_watched {
+            Ok(ahead) if way.on_track(&ahead.track).is_none() || is_free() => match is_watched {
                 true => Ok(How::Whole),
                 false => Ok(How::Done(ahead)),
             },
