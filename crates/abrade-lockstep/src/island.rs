@@ -2,7 +2,6 @@
 
 use abrade::{Met, PhysicsError, Placed, State};
 use rapier::dynamics::{GenericJoint, Multibody, MultibodyJoint, RigidBody, RigidBodyHandle};
-use rapier::geometry::{Collider, ColliderSet};
 use rapier::math::Vector;
 use rapier::pipeline::{ActiveHooks, PhysicsWorld};
 
@@ -12,6 +11,7 @@ use crate::filter::{Filter, Proxy, Wearing};
 use crate::pairs::Pairs;
 use crate::parameters::{refine, refine_joint};
 use crate::rewind::{Rewind, chains};
+use crate::round::{is_ball, is_round};
 use crate::wearer::Wearer;
 
 /// Parts of an advance that no step is longer than.
@@ -20,8 +20,6 @@ const COARSEST: f64 = 16.0;
 /// apart: within a step Rapier's joints are straight.
 const TURN_HELD: f64 = 0.002;
 const TURN_FREE: f64 = 0.1;
-/// Share of its radius or inertia by which a round body may be off.
-const ROUND: f64 = 1e-6;
 /// Iterations of the solver in a step that begins without known impulses, in which a light body may
 /// bear a heavy one, and in a step that has a blow.
 const FIRST: usize = 256;
@@ -110,7 +108,7 @@ impl Island {
         let matters = |(handle, rb): (RigidBodyHandle, &RigidBody)| {
             let own = wearers.iter().find(|wearer| wearer.handle == handle);
             let is_round =
-                is_round(rb, &world.colliders) && own.is_none_or(|own| own.is_ball(ROUND));
+                is_round(rb, &world.colliders) && own.is_none_or(|own| is_ball(&own.body.shape));
             (is_held || !is_round).then_some(handle)
         };
         let turning = world.bodies.iter().filter_map(matters).collect();
@@ -392,19 +390,6 @@ fn tell_links(world: &mut PhysicsWorld) {
             }
         }
     }
-}
-
-/// True for a body that looks the same however it turns, to contacts and to its own inertia.
-pub(crate) fn is_round(rb: &RigidBody, colliders: &ColliderSet) -> bool {
-    let centre = rb.local_center_of_mass();
-    let is_centred = |collider: &Collider| {
-        let at = collider.position_wrt_parent().map_or(centre, |place| place.translation);
-        collider.shape().as_ball().is_some_and(|ball| (at - centre).length() < ROUND * ball.radius)
-    };
-    let inertia = rb.mass_properties().local_mprops.principal_inertia();
-    let (least, most) = (inertia.min_element(), inertia.max_element());
-    most - least <= ROUND * most
-        && rb.colliders().iter().filter_map(|own| colliders.get(*own)).all(is_centred)
 }
 
 /// Impulse of a body's contacts with proxies in the last step [N s].

@@ -26,6 +26,7 @@ mod island;
 mod pairs;
 mod parameters;
 mod rewind;
+mod round;
 #[cfg(feature = "state")]
 mod state;
 mod wearer;

@@ -8,7 +8,7 @@ use rapier::parry::query::{ClosestPoints, closest_points};
 use rapier::pipeline::PhysicsWorld;
 
 use crate::filter::Proxy;
-use crate::island::is_round;
+use crate::round::is_round;
 
 /// Share of the top speed at which bodies that touch may close without a blow.
 const STRIKES: f64 = 1e-3;

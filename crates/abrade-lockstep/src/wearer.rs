@@ -1,8 +1,7 @@
 //! A body of the island that wears surfaces.
 
 use abrade::{
-    Ball, Body, Carried, EncounterSettings, Grip, Ledger, Loads, Met, PhysicsError, Piece, Placed,
-    State,
+    Body, Carried, EncounterSettings, Grip, Ledger, Loads, Met, PhysicsError, Placed, State,
 };
 use nalgebra::{Translation3, Vector3};
 use rapier::dynamics::RigidBodyHandle;
@@ -92,12 +91,6 @@ impl Wearer {
         let booked = *self.contact.ledger();
         let seen = self.contact.node_evaluations();
         Self { handle, loads, impulse, contact_time, worn, booked, seen, uses, ..self }
-    }
-
-    /// True for a ball about its centre of mass, within a share `within` of its radius.
-    pub(crate) fn is_ball(&self, within: f64) -> bool {
-        let centred = |ball: &Ball| ball.centre.coords.norm() < within * ball.radius;
-        matches!(self.body.shape.pieces(), [Piece::Ball(ball)] if centred(ball))
     }
 
     /// True when it rests on a contact of Rapier's.

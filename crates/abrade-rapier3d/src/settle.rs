@@ -154,7 +154,7 @@ impl WearWorld {
             *self.reasons.entry((Resolver::Lockstep, reason.name().into())).or_default() += 1;
         }
         let tracked = Tracked::slot(&mut self.bodies, body);
-        tracked.let_go(&mut self.surfaces, &mut self.closed);
+        tracked.let_go_but(&[], &mut self.surfaces, &mut self.closed);
         tracked.borne.truncate(1);
         tracked.borne.iter_mut().for_each(|(_, load)| *load = bears);
         tracked.hand_to(Resolver::Lockstep, reason, &mut self.events);

@@ -189,13 +189,6 @@ impl Tracked {
         *live.encounter.ledger()
     }
 
-    /// Ends what QuasiStatic presses it against.
-    pub fn let_go(&mut self, surfaces: &mut [WornCollider], closed: &mut Ledger) {
-        for mut pressing in self.pressing.drain(..) {
-            *closed += pressing.end(surfaces);
-        }
-    }
-
     /// True in the middle of a blow on springs, which may pass the turning point, where it is slow.
     pub fn is_in_blow(&self) -> bool {
         let Some(live) = self.live.as_ref().filter(|live| live.encounter.in_contact()) else {
@@ -219,9 +212,6 @@ impl Tracked {
         events: &mut Vec<WearEvent>,
     ) {
         self.let_go(surfaces, closed);
-        self.wearer = None;
-        self.borne.clear();
-        self.friction = 0.0;
         self.hand_to(Resolver::Micro, None, events);
     }
 
@@ -248,6 +238,11 @@ impl Tracked {
         *closed += self.end(events);
         self.let_go(surfaces, closed);
         Contact::end(&mut self.contact, self.handle, events);
+    }
+
+    /// Lets go of what the resolvers other than Micro kept.
+    fn let_go(&mut self, surfaces: &mut [WornCollider], closed: &mut Ledger) {
+        self.let_go_but(&[], surfaces, closed);
         (self.wearer, self.friction) = (None, 0.0);
         self.borne.clear();
     }

@@ -50,7 +50,7 @@ pub(crate) fn link(
 }
 
 /// The motion that brings `multibody` to the states that `link` gives its bodies; nothing if one
-/// has none.
+/// has none, or if angles that something asks for cannot be counted from their origin.
 pub(crate) fn motion(
     multibody: &Multibody,
     from: Since,
@@ -72,7 +72,8 @@ pub(crate) fn motion(
         let now = coordinates(own.joint());
         let to = joint.coordinates(&parent, &here, &now);
         let start = if from == Since::Now { now } else { Coordinates::default() };
-        if joint.turns_freely() && is_told_angles(multibody, own) && !to.is_one_turn() {
+        let counts = joint.turns_freely() && is_told_angles(multibody, own);
+        if from == Since::Origin && counts && !to.is_one_turn() {
             return None;
         }
         displacement.extend(joint.way(&start, &to));
