@@ -68,7 +68,7 @@ fn indentation_agrees_with_the_reference() {
         };
         let mut driven =
             Driven::new(&mut body, &surface, drive, EncounterSettings::default()).expect("a drive");
-        let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+        let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
         let done = driven.indent(&mut body, &mut placed, &mut ()).expect("an indentation");
         let (area, expected) =
             (surface.worn().indented_area * 1e6, number(&row, "A_ind_at_21kN_mm2"));
@@ -134,7 +134,7 @@ fn scratch(case: &Scratch) -> ([f64; 2], u64, abrade::Ledger) {
     let settings =
         EncounterSettings { accuracy: case.accuracy, ledger: true, ..Default::default() };
     let mut driven = Driven::new(&mut body, &surface, drive, settings).expect("a drive");
-    let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+    let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
     driven.indent(&mut body, &mut placed, &mut ()).expect("an indentation");
     let start = placed[0].surface.wear_volume();
     let lead = (case.distance - case.rate_over) / 0.2;

@@ -4,6 +4,7 @@ mod convergence;
 mod drive;
 mod foundation;
 mod ledger;
+mod moving;
 mod nature;
 mod paper;
 mod restitution;

@@ -54,7 +54,7 @@ fn bounce(elastic: ElasticLaw, restitution: f64, speed: f64, accuracy: f64) -> (
     let mut body = ball(1e-10, speed, inflation);
     let settings = EncounterSettings { accuracy, ledger: true, ..Default::default() };
     let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
-    let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+    let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
     let mut least = Least::default();
     let done = encounter
         .advance(&mut body, &mut placed, &Loads::default(), 1.0, Until::FirstExit, &mut least)
@@ -108,7 +108,7 @@ fn a_dropped_ball_comes_to_rest_and_wears_nothing() {
         let settings = EncounterSettings { ledger: true, ..Default::default() };
         let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
         let loads = Loads { gravity: -9.81 * Vector3::z(), ..Default::default() };
-        let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+        let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
         let mut least = Least::default();
         // All bounces together take (1 + e) / (1 - e) = 3 times the fall of 0.45 ms.
         let done = encounter
@@ -133,7 +133,7 @@ fn a_ball_that_cannot_turn_stops_sideways_too() {
     let settings = EncounterSettings { ledger: true, ..Default::default() };
     let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
     let loads = Loads { gravity: -9.81 * Vector3::z(), ..Default::default() };
-    let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+    let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
     let mut least = Least::default();
     encounter
         .advance(&mut body, &mut placed, &loads, 5e-3, Until::Duration, &mut least)
@@ -180,7 +180,7 @@ fn a_restitution_of_one_changes_no_bit() {
     body.rotation_locked = true;
     let mut encounter =
         Encounter::new(&body, [&surface], EncounterSettings::default()).expect("an encounter");
-    let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+    let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
     encounter
         .advance(&mut body, &mut placed, &Loads::default(), 1.0, Until::FirstExit, &mut ())
         .expect("an impact");
@@ -217,7 +217,7 @@ fn a_cube_and_a_clump_rebound_with_the_asked_restitution() {
             let mut body = Body { shape: shape.clone(), inertia, state, rotation_locked: false };
             let settings = EncounterSettings { ledger: true, ..Default::default() };
             let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
-            let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+            let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
             let mut least = Least::default();
             let done = encounter
                 .advance(

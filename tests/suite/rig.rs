@@ -101,7 +101,7 @@ impl Impact {
         };
         let settings = EncounterSettings { accuracy: self.accuracy, ledger, ..Default::default() };
         let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
-        let mut placed = [Placed { surface: &mut surface, pose }];
+        let mut placed = [Placed::at_rest(&mut surface, pose)];
         let advance = encounter
             .advance(&mut body, &mut placed, &Loads::default(), 1e-3, Until::FirstExit, observer)
             .expect("an impact");

@@ -85,7 +85,7 @@ impl Shot {
         let before = body.inertia.kinetic_energy(&body.state);
         let settings = EncounterSettings { ledger: true, ..Default::default() };
         let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
-        let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+        let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
         let advance = encounter
             .advance(&mut body, &mut placed, &Loads::default(), 50.0, Until::FirstExit, &mut ())
             .expect("an impact");

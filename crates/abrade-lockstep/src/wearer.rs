@@ -210,7 +210,7 @@ fn own<'a>(surfaces: &'a mut [Placed<'_>], uses: &[usize], lifts: &[f64]) -> Vec
         let Some(order) = uses.iter().position(|used| *used == at) else { continue };
         let lift = lifts.get(order).copied().unwrap_or(0.0);
         let pose = placed.pose * Translation3::new(0.0, 0.0, -lift);
-        own.push(Placed { surface: &mut *placed.surface, pose });
+        own.push(Placed::at_rest(&mut *placed.surface, pose));
     }
     own
 }

@@ -63,7 +63,7 @@ fn by_core(body: &Body, pitch: f64) -> (State, f64) {
     let (mut body, mut surface) = (body.clone(), plate(pitch));
     let settings = EncounterSettings { accuracy: 1e-4, ..EncounterSettings::default() };
     let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
-    let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+    let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
     let loads = Loads::default();
     encounter
         .advance(&mut body, &mut placed, &loads, 2e-4, Until::Duration, &mut ())
@@ -117,7 +117,7 @@ fn by_island(
     accuracy: f64,
 ) -> (Vector3<f64>, Vector3<f64>, f64, u64) {
     let mut surface = plate(pitch);
-    let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+    let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
     let settings = EncounterSettings { accuracy, ..EncounterSettings::default() };
     let wearers: Vec<_> = bodies
         .iter()

@@ -89,7 +89,7 @@ impl DrivenBody {
         let surfaces = vec![self.surface];
         let mut relay = Relay { observer, body: self.handle, frame, surfaces, began: 0.0, trace };
         let pose = Isometry3::identity();
-        let mut placed = [Placed { surface: worn.owned(), pose }];
+        let mut placed = [Placed::at_rest(worn.owned(), pose)];
         let mut steps = 0;
         if !self.indented {
             steps = self.driven.indent(&mut self.body, &mut placed, &mut relay)?.steps;

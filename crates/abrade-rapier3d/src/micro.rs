@@ -154,7 +154,7 @@ pub(crate) fn placed<'a>(
     surfaces: impl Iterator<Item = &'a mut Surface>,
     poses: &[Isometry3<f64>],
 ) -> Vec<Placed<'a>> {
-    surfaces.zip(poses).map(|(surface, pose)| Placed { surface, pose: *pose }).collect()
+    surfaces.zip(poses).map(|(surface, pose)| Placed::at_rest(surface, *pose)).collect()
 }
 
 /// The surfaces `ids` themselves at their poses, in that order, to be worn.

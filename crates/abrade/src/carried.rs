@@ -7,14 +7,15 @@
 use std::borrow::Cow;
 use std::ops::Mul;
 
-use nalgebra::Vector3;
+use nalgebra::{Isometry3, Vector3};
 
 use crate::body::{Body, State};
 use crate::contact::Contact;
 use crate::damping::Damping;
 use crate::encounter::{EncounterSettings, Loads, Placed};
 use crate::error::PhysicsError;
-use crate::integrate::{GROWTH, Integrator, engulfed, rejected};
+use crate::exit::engulfed;
+use crate::integrate::{GROWTH, Integrator, rejected};
 use crate::ledger::Ledger;
 #[cfg(feature = "state")]
 use crate::state::{Fault, finite, not_negative, require};
@@ -85,6 +86,13 @@ impl Mul<f64> for Grip {
     }
 }
 
+impl Grip {
+    /// Given in a frame at `pose`, seen from outside it.
+    pub(crate) fn turned(&self, pose: &Isometry3<f64>) -> Self {
+        Self { force: pose * self.force, torque: pose * self.torque }
+    }
+}
+
 impl Carried {
     /// A carried `body` near `surfaces`, not yet in contact.
     ///
@@ -150,7 +158,7 @@ impl Carried {
         dynamics.drift(&mut end, dt);
         let trial = self.integrator.ask(body, surfaces, &end, Course { velocity, spin, dt });
         let mut state = body.state;
-        let charge = self.integrator.charge(&trial.toll, &mut state);
+        let charge = self.integrator.charge(&trial.toll, 0.0, &mut state);
         let swept = Grip { force: charge.impulse / dt, torque: charge.torque / dt };
         self.foreseen = (swept, charge.short);
         Grip { force: springs.force + swept.force, torque: springs.torque + swept.torque }
@@ -167,7 +175,7 @@ impl Carried {
         end: &State,
         dt: f64,
     ) -> Result<Met, PhysicsError> {
-        self.integrator.fits(surfaces)?;
+        self.integrator.fits_at_rest(surfaces)?;
         let velocity = (end.position - body.state.position) / dt;
         let spin = (end.rotation * body.state.rotation.inverse()).scaled_axis() / dt;
         let course = Course { velocity, spin, dt };
@@ -183,7 +191,7 @@ impl Carried {
             }
             false => Damping::default(),
         };
-        let omega = trial.omega(&self.integrator.dynamics).max(damping.rate);
+        let omega = self.integrator.omega(&trial).max(damping.rate);
         let allowed = self.integrator.eta / omega;
         let shorter = rejected(&trial, dt, allowed);
         self.pending =
@@ -200,7 +208,7 @@ impl Carried {
         body: &mut Body,
         surfaces: &mut [Placed<'_>],
     ) -> Result<(), PhysicsError> {
-        self.integrator.fits(surfaces)?;
+        self.integrator.fits_at_rest(surfaces)?;
         let Some(Pending { trial, end, dt, allowed, damping }) = self.pending.take() else {
             return Ok(());
         };

@@ -13,8 +13,10 @@
 //! load up to the cap early, which costs wear. Tangential springs that stick have the same
 //! relaxation time; friction is limited by the elastic force.
 
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
+use crate::carried::Grip;
+use crate::carrier::reaction;
 use crate::encounter::Placed;
 use crate::integrate::Integrator;
 use crate::rotation::Dynamics;
@@ -172,9 +174,14 @@ impl Damping {
         self.normal_load += other.normal_load;
     }
 
+    /// As impulses.
+    pub(crate) fn push(&self) -> Push {
+        Push { impulse: self.impulse, torque: self.torque, friction: 0.0 }
+    }
+
     /// Half of it, as impulses.
     pub(crate) fn half(&self) -> Push {
-        Push { impulse: 0.5 * self.impulse, torque: 0.5 * self.torque, friction: 0.0 }
+        self.push().scaled(0.5)
     }
 }
 
@@ -183,31 +190,39 @@ impl Integrator {
     pub(crate) fn damp(&mut self, surfaces: &[Placed<'_>], trial: &Trial) {
         self.damping = Damping::default();
         let (dynamics, rotation) = (&self.dynamics, &trial.state.rotation);
-        for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
+        for (i, (contact, placed)) in self.contacts.iter_mut().zip(surfaces).enumerate() {
             if contact.damping_ratio() == 0.0 {
                 continue;
             }
             self.dashpots.clear();
             contact.press(placed.surface.laws(), &mut self.dashpots);
+            let ride = self.rides.get(i).and_then(Option::as_ref);
+            let pose = ride.map_or(placed.pose, |ride| ride.pose);
             let inverse_mass = |force: &Vector3<f64>, torque: &Vector3<f64>| {
-                let (force, torque) = (placed.pose * force, placed.pose * torque);
-                answer(dynamics, &force, &dynamics.turn(rotation, &torque), &torque)
+                let grip = Grip { force: pose * force, torque: pose * torque };
+                let below = ride.map_or(0.0, |ride| {
+                    let back = reaction(&grip, &trial.state, &ride.end);
+                    answer(&ride.dynamics, &ride.end.rotation, &back)
+                });
+                answer(dynamics, rotation, &grip) + below
             };
             let damping = self.dashpots.act(contact.damping_ratio(), trial.dt, inverse_mass);
             contact.take_damping(&damping);
-            self.damping.add(&damping, &placed.pose);
+            self.damping.add(&damping, &pose);
+            if ride.is_some() {
+                let answer = &mut self.answers[i].damping;
+                *answer = Push::default();
+                answer.add(&damping.push(), &pose);
+            }
         }
     }
 }
 
 /// Reciprocal of the mass that a force with its torque finds at its point of attack [1/kg].
-fn answer(
-    dynamics: &Dynamics,
-    force: &Vector3<f64>,
-    turning: &Vector3<f64>,
-    torque: &Vector3<f64>,
-) -> f64 {
-    let moved = force.dot(&dynamics.accelerate(force)) + torque.dot(turning);
+fn answer(dynamics: &Dynamics, rotation: &UnitQuaternion<f64>, grip: &Grip) -> f64 {
+    let Grip { force, torque } = grip;
+    let turning = dynamics.turn(rotation, torque);
+    let moved = force.dot(&dynamics.accelerate(force)) + torque.dot(&turning);
     moved / force.norm_squared()
 }
 

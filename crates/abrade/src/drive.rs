@@ -132,7 +132,7 @@ impl Driven {
         placed: &mut [Placed<'_>; 1],
         observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
-        self.integrator.fits(placed)?;
+        self.integrator.fits_at_rest(placed)?;
         let down = -(placed[0].pose.rotation * Vector3::z());
         let overlap = self.integrator.contacts[0].yield_overlap();
         let increment = match overlap.is_finite() {

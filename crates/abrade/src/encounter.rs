@@ -4,6 +4,7 @@
 use nalgebra::{Isometry3, Point3, Vector3};
 
 use crate::body::{Body, State};
+use crate::carrier::Carrier;
 use crate::contact::Contact;
 use crate::error::PhysicsError;
 use crate::integrate::Integrator;
@@ -32,8 +33,11 @@ impl Default for EncounterSettings {
 pub struct Placed<'a> {
     /// The surface.
     pub surface: &'a mut Surface,
-    /// Its frame; at rest during the call.
+    /// Its frame at the present instant.
     pub pose: Isometry3<f64>,
+    /// The body that it moves with; None for a surface at rest. No two surfaces of a call share
+    /// one that is free to move.
+    pub carrier: Option<Carrier>,
 }
 
 /// What acts on the body beside the contact, constant over a call.
@@ -126,7 +130,8 @@ impl Encounter {
     }
 
     /// Carries `body` through `duration` [s], wearing the surfaces it touches: those that the
-    /// encounter was made with, in their order.
+    /// encounter was made with, in their order. Surfaces with a carrier move with it: pose and
+    /// state of it end where the call ends.
     ///
     /// # Errors
     /// A physical state outside the model's reach; the body and the surfaces are left as they

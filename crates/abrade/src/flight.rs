@@ -4,20 +4,20 @@ use nalgebra::Vector3;
 
 use crate::body::{Body, State};
 use crate::contact::Contact;
-use crate::encounter::Loads;
 use crate::extent::bounds;
 use crate::shape::Piece;
 use crate::surface::Surface;
 
-/// Time [s] in which the body cannot touch `surface`; zero when it may touch at once.
+/// Time [s] in which a body that moves as `local` as seen from `surface`, with an `acceleration` at
+/// most [m/s2], cannot touch it; zero when it may touch at once.
 pub(crate) fn free_time(
     contact: &mut Contact,
     surface: &Surface,
     body: &Body,
     local: &State,
-    loads: &Loads,
+    acceleration: f64,
 ) -> f64 {
-    let apart = box_time(surface, body, local, loads, contact.inflation());
+    let apart = box_time(surface, body, local, acceleration, contact.inflation());
     let Contact::Springs(patch) = contact else { return apart };
     if apart > 0.0 {
         return apart;
@@ -25,9 +25,8 @@ pub(crate) fn free_time(
     let margin = 0.5 * surface.pitch();
     patch.cover(surface, &body.shape, local, margin);
     let speed = local.velocity.norm() + local.spin.norm() * turning_reach(body);
-    let force = acceleration(body, loads);
-    let covered = time_to_close(patch.slack(&body.shape, local).max(0.0), speed, force);
-    patch.time_to_touch(local, speed, force).min(covered)
+    let covered = time_to_close(patch.slack(&body.shape, local).max(0.0), speed, acceleration);
+    patch.time_to_touch(local, speed, acceleration).min(covered)
 }
 
 /// Time until the boxes of the body and the nodes can meet [s].
@@ -35,17 +34,12 @@ pub(crate) fn box_time(
     surface: &Surface,
     body: &Body,
     local: &State,
-    loads: &Loads,
+    acceleration: f64,
     inflation: f64,
 ) -> f64 {
-    let force = acceleration(body, loads);
     let turning = local.spin.norm() * turning_reach(body);
-    let time = |(gap, approach)| time_to_close(gap, approach + turning, force);
+    let time = |(gap, approach)| time_to_close(gap, approach + turning, acceleration);
     gaps(surface, body, local, inflation).map(time).into_iter().fold(0.0, f64::max)
-}
-
-fn acceleration(body: &Body, loads: &Loads) -> f64 {
-    loads.gravity.norm() + loads.force.norm() / body.inertia.mass
 }
 
 /// Largest gap between the box around the body and the box around the nodes [m]; negative when

@@ -7,11 +7,13 @@
 use nalgebra::Vector3;
 
 use crate::body::{Body, State};
+use crate::carrier::{Answer, Hand, Ride, carriers_energy, flight_limit};
 use crate::contact::Contact;
 use crate::damping::{Damping, Dashpots};
 use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Until};
 use crate::error::PhysicsError;
-use crate::flight::{free_time, separation, time_to_close};
+use crate::exit::{engulfed, relative_energy};
+use crate::flight::{free_time, time_to_close};
 use crate::ledger::Ledger;
 use crate::rotation::Dynamics;
 #[cfg(feature = "state")]
@@ -36,10 +38,6 @@ pub(crate) const GROWTH: f64 = 2.0;
 const FLOOR: f64 = 0.1;
 /// Share of a step below which the turning point is not worth a step of its own.
 const TURN: f64 = 0.05;
-/// Overlap at the first step, in bounding radii, above which a body counts as started inside.
-const INSIDE: f64 = 1e-3;
-/// Share of the kinetic energy before contact below which a body counts as stopped.
-const STOPPED: f64 = 1e-9;
 
 /// State of a contact between calls.
 #[derive(Clone, Debug)]
@@ -58,7 +56,21 @@ pub(crate) struct Integrator {
     pub(crate) pull: Pull,
     pub(crate) touching: bool,
     pub(crate) touched: bool,
-    energy_before: f64,
+    pub(crate) energy_before: f64,
+    /// What every contact does, for surfaces that move.
+    pub(crate) hands: Vec<Hand>,
+    /// The carriers prepared for stepping, one per surface, and in the last trial; none when every
+    /// surface is at rest.
+    #[cfg_attr(feature = "state", serde(skip))]
+    pub(crate) mounts: Vec<Option<Dynamics>>,
+    #[cfg_attr(feature = "state", serde(skip))]
+    pub(crate) rides: Vec<Option<Ride>>,
+    /// What every contact did to the body in the last trial, where its surface moves.
+    #[cfg_attr(feature = "state", serde(skip))]
+    pub(crate) answers: Vec<Answer>,
+    /// Angular momentum that placing the end of the last trial ahead of the balance made [N m s].
+    #[cfg_attr(feature = "state", serde(skip))]
+    pub(crate) ahead: Vector3<f64>,
     /// True when a surface damps the body; what its dashpots do over the last trial, and the
     /// springs that they stand beside.
     pub(crate) is_damped: bool,
@@ -99,6 +111,11 @@ impl Integrator {
             touching: false,
             touched: false,
             energy_before: body.inertia.kinetic_energy(&body.state),
+            hands: Vec::new(),
+            mounts: Vec::new(),
+            rides: Vec::new(),
+            answers: Vec::new(),
+            ahead: Vector3::zeros(),
             short: 0.0,
             ledger: Ledger::default(),
         })
@@ -146,6 +163,7 @@ impl Integrator {
         observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
         self.fits(surfaces)?;
+        self.mount(surfaces)?;
         let mut done = Advance::default();
         while done.time < duration {
             let remaining = duration - done.time;
@@ -164,7 +182,7 @@ impl Integrator {
                 self.end_contact(surfaces);
                 done.exited = until == Until::FirstExit;
             }
-            if done.exited || (until == Until::FirstExit && self.has_stopped(body)) {
+            if done.exited || (until == Until::FirstExit && self.has_stopped(body, surfaces)) {
                 self.end_contact(surfaces);
                 done.exited = true;
                 break;
@@ -178,12 +196,14 @@ impl Integrator {
 
     /// Step of a body in contact. It ends where the body turns, because there the flow ends: a
     /// sampled peak would miss wear in proportion to dt^2.
-    fn contact_step(&self, body: &Body, loads: &Loads) -> f64 {
+    fn contact_step(&self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads) -> f64 {
         let push = self.pull.push;
         let direction = push / push.norm().max(f64::MIN_POSITIVE);
-        let approach = -body.state.velocity.dot(&direction);
         let net = self.pull.force + loads.force + loads.gravity * body.inertia.mass;
-        let turn = approach / (net.dot(&direction) * self.dynamics.inverse_mass);
+        let [velocity, acceleration] = self.motion_below(body, surfaces);
+        let approach = -(body.state.velocity - velocity).dot(&direction);
+        let slowing = net.dot(&direction) * self.dynamics.inverse_mass;
+        let turn = approach / (slowing - acceleration.dot(&direction));
         if turn > TURN * self.next_dt && turn < self.next_dt { turn } else { self.next_dt }
     }
 
@@ -196,50 +216,34 @@ impl Integrator {
     ) -> (f64, bool) {
         let limit = self.sweep_limit(body, surfaces, loads);
         if self.touching {
-            return (self.contact_step(body, loads).min(limit), false);
+            return (self.contact_step(body, surfaces, loads).min(limit), false);
         }
         let mut free = f64::INFINITY;
         for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
-            let local = body.state.seen_from(&placed.pose);
-            free = free.min(free_time(contact, placed.surface, body, &local, loads));
+            let local = placed.sees(&body.state);
+            let acceleration = acceleration(placed, body, loads);
+            free = free.min(free_time(contact, placed.surface, body, &local, acceleration));
         }
-        let speed = top_speed(body);
         let yield_overlap = self.contacts.iter().map(Contact::yield_overlap);
-        let scale = yield_overlap.fold(f64::INFINITY, f64::min);
-        let floor = time_to_close(FLOOR * scale, speed, self.acceleration(loads));
-        let floor = floor.min(limit);
+        let scale = FLOOR * yield_overlap.fold(f64::INFINITY, f64::min);
+        let time = |placed: &Placed<'_>| {
+            time_to_close(scale, top_speed(placed, body), acceleration(placed, body, loads))
+        };
+        let floor = surfaces.iter().map(time).fold(limit, f64::min);
         if free > floor || free == f64::INFINITY {
-            (free.min(self.rise_time(body, surfaces)), true)
+            let free = free.min(self.rise_time(body, surfaces));
+            (free.min(flight_limit(surfaces).max(floor)), true)
         } else {
             (floor, false)
         }
     }
 
-    /// After a contact: time until the whole body is above the undeformed surfaces [s], so that a
-    /// flight step ends there.
-    fn rise_time(&self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
-        if !self.touched {
-            return f64::INFINITY;
-        }
-        let times = self.contacts.iter().zip(surfaces).map(|(contact, placed)| {
-            let local = body.state.seen_from(&placed.pose);
-            crate::flight::rise_time(placed.surface, body, &local, contact.inflation())
-        });
-        times.fold(f64::INFINITY, f64::min)
-    }
-
-    /// Bound of what the loads accelerate the body by [m/s2].
-    fn acceleration(&self, loads: &Loads) -> f64 {
-        loads.gravity.norm() + loads.force.norm() * self.dynamics.inverse_mass
-    }
-
     /// Longest step of the swept rule: |v| dt <= 0.1 pitch, and 0.4 yield overlaps with springs.
     fn sweep_limit(&self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads) -> f64 {
-        let speed = top_speed(body);
-        let acceleration = self.acceleration(loads);
         let limit = |(contact, placed): (&Contact, &Placed<'_>)| {
             let reach = contact.sweep_reach(placed.surface)?;
-            Some(time_to_close(reach, speed, acceleration))
+            let speed = top_speed(placed, body);
+            Some(time_to_close(reach, speed, acceleration(placed, body, loads)))
         };
         self.contacts.iter().zip(surfaces).filter_map(limit).fold(f64::INFINITY, f64::min)
     }
@@ -264,7 +268,7 @@ impl Integrator {
             if !trial.is_finite() {
                 return Err(PhysicsError::NotFinite { time: done.contact_time });
             }
-            let omega = trial.omega(&self.dynamics).max(self.damping.rate);
+            let omega = self.omega(&trial).max(self.damping.rate);
             let allowed = self.eta / omega;
             if let Some(smaller) = rejected(&trial, dt, allowed) {
                 if dt < f64::MIN_POSITIVE / f64::EPSILON {
@@ -275,7 +279,7 @@ impl Integrator {
             }
             if !self.touched && trial.touching > 0 {
                 self.touched = true;
-                self.energy_before = body.inertia.kinetic_energy(&body.state);
+                self.energy_before = relative_energy(body, surfaces);
             }
             // A step cut short at a turning point says nothing of the next one.
             self.next_dt = allowed.min(GROWTH * dt.max(self.next_dt.min(allowed)));
@@ -297,18 +301,22 @@ impl Integrator {
         done: &mut Advance,
     ) {
         let before = body.state;
+        let carried = self.settings.ledger.then(|| carriers_energy(surfaces));
         let end = self.settle(body, surfaces, loads, dt, &trial);
         let mut state = end.state;
         state.velocity /= 1.0 + dt * loads.linear_damping;
         state.spin /= 1.0 + dt * loads.angular_damping;
+        self.arrive(surfaces, dt);
         if self.settings.ledger {
             let energy = |state: &State| body.inertia.kinetic_energy(state);
             let weight = loads.force + loads.gravity * body.inertia.mass;
             let ledger = &mut self.ledger;
-            ledger.kinetic_change += energy(&state) - energy(&before);
+            let carried = carriers_energy(surfaces) - carried.unwrap_or_default();
+            ledger.kinetic_change += energy(&state) - energy(&before) + carried;
             ledger.damping += energy(&end.state) - energy(&state) + end.ledger.damping;
-            ledger.external_work +=
-                weight.dot(&trial.shift) + self.dynamics.work(&loads.torque, &trial.turn);
+            ledger.external_work += end.ledger.external_work
+                + weight.dot(&trial.shift)
+                + self.dynamics.work(&loads.torque, &trial.turn);
             if self.dynamics.is_guided() {
                 // What leads the body takes up the force that its velocity does not show.
                 let total = end.impulse + weight * dt;
@@ -330,15 +338,6 @@ impl Integrator {
         body.state = state;
     }
 
-    /// The body must not lie inside a surface before it has touched it.
-    fn start_clear(&mut self, body: &Body, surfaces: &[Placed<'_>]) -> Result<(), PhysicsError> {
-        let depth = self.overlaps(body, surfaces).fold(0.0, f64::max);
-        match depth > INSIDE * body.shape.bounding_radius() {
-            true => Err(PhysicsError::StartsInside { depth }),
-            false => Ok(()),
-        }
-    }
-
     /// Largest overlap of a node with the body [m], surface by surface.
     pub(crate) fn overlaps<'a>(
         &'a mut self,
@@ -346,42 +345,10 @@ impl Integrator {
         surfaces: &'a [Placed<'_>],
     ) -> impl Iterator<Item = f64> + 'a {
         self.contacts.iter_mut().zip(surfaces).map(|(contact, placed)| {
-            let local = body.state.seen_from(&placed.pose);
+            let local = placed.sees(&body.state);
             contact.cover(placed.surface, &body.shape, &local, 0.0);
             contact.deepest(placed.surface, &body.shape, &local)
         })
-    }
-
-    /// True for a body out of contact and wholly above every undeformed surface.
-    pub(crate) fn contact_is_over(&self, body: &Body, surfaces: &[Placed<'_>]) -> bool {
-        let mut pairs = self.contacts.iter().zip(surfaces);
-        !self.touching
-            && pairs.all(|(contact, placed)| {
-                let local = body.state.seen_from(&placed.pose);
-                separation(placed.surface, body, &local, contact.inflation()) >= 0.0
-            })
-    }
-
-    /// True for a body that surfaces without springs have brought to rest.
-    fn has_stopped(&self, body: &Body) -> bool {
-        self.touched
-            && self.contacts.iter().all(Contact::is_rigid)
-            && body.inertia.kinetic_energy(&body.state) < STOPPED * self.energy_before
-    }
-
-    pub(crate) fn end_contact(&mut self, surfaces: &mut [Placed<'_>]) {
-        for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
-            contact.end(placed.surface);
-        }
-        self.touching = false;
-        self.touched = false;
-    }
-
-    /// Distance between the boxes of the body and of the first surface [m].
-    pub(crate) fn gap(&self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
-        let (contact, placed) = (&self.contacts[0], &surfaces[0]);
-        let local = body.state.seen_from(&placed.pose);
-        separation(placed.surface, body, &local, contact.inflation())
     }
 
     /// Books what dashpots of a led body dissipated [J].
@@ -425,21 +392,16 @@ pub(crate) fn rejected(trial: &Trial, dt: f64, allowed: f64) -> Option<f64> {
     }
 }
 
-/// Bound of the speed of any point of the body [m/s].
-fn top_speed(body: &Body) -> f64 {
-    let turning: Vector3<f64> = body.state.spin;
-    body.state.velocity.norm() + turning.norm() * body.shape.bounding_radius()
+/// Bound of the speed of any point of the body as the surface sees it [m/s].
+pub(crate) fn top_speed(placed: &Placed<'_>, body: &Body) -> f64 {
+    let [velocity, spin] = placed.relative(&body.state);
+    velocity.norm() + spin.norm() * body.shape.bounding_radius()
 }
 
-/// An error when the centre of mass is below the undeformed surface.
-pub(crate) fn engulfed(placed: &Placed<'_>, state: &State) -> Result<(), PhysicsError> {
-    let [low, high] = placed.surface.bounds();
-    let local = placed.pose.inverse_transform_point(&state.position);
-    let over = (0..2).all(|a| local[a] > low[a] && local[a] < high[a]);
-    if over && local.z < high.z {
-        return Err(PhysicsError::Engulfed { depth: high.z - local.z });
-    }
-    Ok(())
+/// Bound of the acceleration between body and surface out of contact [m/s2].
+fn acceleration(placed: &Placed<'_>, body: &Body, loads: &Loads) -> f64 {
+    let carrier = placed.carrier.as_ref().map_or(0.0, |c| c.acceleration(&body.state));
+    loads.gravity.norm() + loads.force.norm() / body.inertia.mass + carrier
 }
 
 #[cfg(feature = "state")]
@@ -454,7 +416,9 @@ impl Integrator {
         let within = pairs.all(|(contact, &nodes)| contact.lies_on(nodes));
         require(same && within, "a candidate is no node of its surface")?;
         let energies = finite(&[self.energy_before, self.short]);
-        require(energies && self.pull.is_finite(), "the forces of a contact are not finite")?;
+        let hands = self.hands.iter().all(Hand::is_finite);
+        let finite = energies && hands && self.pull.is_finite();
+        require(finite, "the forces of a contact are not finite")?;
         Ok(self)
     }
 

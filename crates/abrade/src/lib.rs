@@ -8,6 +8,7 @@
 mod body;
 mod candidates;
 mod carried;
+mod carrier;
 mod clump_query;
 mod column;
 mod column_law;
@@ -18,6 +19,7 @@ mod drive;
 mod elastic;
 mod encounter;
 mod error;
+mod exit;
 mod extent;
 mod flight;
 mod flow;
@@ -51,6 +53,7 @@ mod union_inertia;
 
 pub use body::{Body, Inertia, State};
 pub use carried::{Carried, Grip, Met};
+pub use carrier::Carrier;
 pub use drive::{Drive, DriveSolution, Driven};
 pub use encounter::{
     Advance, Encounter, EncounterSettings, Instant, Loads, Observer, Placed, Until,

@@ -9,7 +9,8 @@ use nalgebra::{UnitQuaternion, Vector3};
 use crate::body::{Body, State};
 use crate::encounter::{Advance, EncounterSettings, Instant, Observer, Placed};
 use crate::error::PhysicsError;
-use crate::integrate::{Integrator, engulfed};
+use crate::exit::engulfed;
+use crate::integrate::Integrator;
 use crate::ledger::Ledger;
 use crate::surface::Surface;
 use crate::trial::{Course, Trial};
@@ -95,7 +96,7 @@ impl Integrator {
         creep: &Creep,
         observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
-        self.fits(placed)?;
+        self.fits_at_rest(placed)?;
         let Creep { duration, count, scale } = *creep;
         let dt = duration / count;
         let mut done = Advance { time: duration, contact_time: duration, ..Advance::default() };
@@ -184,7 +185,7 @@ impl Pressed {
         hold: &Hold,
         observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
-        self.integrator.fits(placed)?;
+        self.integrator.fits_at_rest(placed)?;
         let load = hold.load.norm();
         let Some(down) = hold.load.try_normalize(0.0).filter(|_| load.is_finite()) else {
             return Ok(Advance { time: hold.duration, ..Advance::default() });

@@ -2,14 +2,13 @@
 //! that the body loses what the removed volume costs, to round-off.
 //!
 //! With impulse J and torque T the kinetic energy changes by b l + a l^2 for the scale l, where
-//! a = (J.M^-1 J + T.I^-1 T)/2 and b = J.v + T.w.
+//! a = (J.M^-1 J + T.I^-1 T)/2 and b = J.v + T.w, summed over the bodies that they act on.
+
+use std::ops::AddAssign;
 
 use crate::body::State;
 use crate::rotation::Dynamics;
 use crate::toll::Push;
-
-/// A guided body is paid for by what leads it: nothing is scaled.
-const LED: Payment = Payment { scale: 1.0, share: 1.0 };
 
 /// Range of the scale for springs: near a turning point their impulse does no work, and no scale
 /// could balance it.
@@ -23,20 +22,33 @@ pub(crate) struct Payment {
     pub share: f64,
 }
 
-fn quadratic(push: &Push, state: &State, dynamics: &Dynamics) -> (f64, f64) {
-    let turn = dynamics.turn(&state.rotation, &push.torque);
-    let a = 0.5 * (push.impulse.norm_squared() * dynamics.inverse_mass + push.torque.dot(&turn));
-    let b = push.impulse.dot(&state.velocity) + dynamics.work(&push.torque, &state.spin);
-    (a, b)
+/// Change of the kinetic energy by impulses scaled by l: b l + a l^2 [J].
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Change {
+    a: f64,
+    b: f64,
 }
 
-/// Scales the impulse of sweeping faces so that a body in `state` loses `cost` [J]:
-/// b l + a l^2 = -cost. Where that has no solution the body gives all that the direction has.
-pub(crate) fn pay(push: &Push, cost: f64, state: &State, dynamics: &Dynamics) -> Payment {
-    if dynamics.is_guided() {
-        return LED;
+impl AddAssign for Change {
+    fn add_assign(&mut self, other: Self) {
+        self.a += other.a;
+        self.b += other.b;
     }
-    let (a, b) = quadratic(push, state, dynamics);
+}
+
+impl Change {
+    /// That of a body in `state` by `push`.
+    pub(crate) fn of(push: &Push, state: &State, dynamics: &Dynamics) -> Self {
+        let turn = dynamics.turn(&state.rotation, &push.torque);
+        let straight = push.impulse.norm_squared() * dynamics.inverse_mass;
+        let b = push.impulse.dot(&state.velocity) + dynamics.work(&push.torque, &state.spin);
+        Self { a: 0.5 * (straight + push.torque.dot(&turn)), b }
+    }
+}
+
+/// Scales the impulse of sweeping faces so that the bodies lose `cost` [J]: b l + a l^2 = -cost.
+/// Where that has no solution they give all that the direction has.
+pub(crate) fn pay(Change { a, b }: Change, cost: f64) -> Payment {
     if cost <= 0.0 || a <= 0.0 {
         return Payment { scale: 0.0, share: 1.0 };
     }
@@ -51,11 +63,7 @@ pub(crate) fn pay(push: &Push, cost: f64, state: &State, dynamics: &Dynamics) ->
 
 /// Scale of the springs' impulse that brings the kinetic energy nearest to losing `cost` [J], and
 /// by how much it falls short of that [J].
-pub(crate) fn balance(push: &Push, cost: f64, state: &State, dynamics: &Dynamics) -> (f64, f64) {
-    if dynamics.is_guided() {
-        return (1.0, 0.0);
-    }
-    let (a, b) = quadratic(push, state, dynamics);
+pub(crate) fn balance(Change { a, b }: Change, cost: f64) -> (f64, f64) {
     let short = |l: f64| (a * l + b) * l + cost;
     let [low, high] = SPRING_SCALES;
     let discriminant = b * b - 4.0 * a * cost;
@@ -91,7 +99,7 @@ mod tests {
         state.velocity.z = -1.0;
         let energy = 0.5 * inertia.mass;
         for (impulse, cost) in [(0.3, 0.9 * energy), (10.0, 0.1 * energy), (0.3, 2.0 * energy)] {
-            let Payment { scale, share } = pay(&push(impulse), cost, &state, &dynamics);
+            let Payment { scale, share } = pay(Change::of(&push(impulse), &state, &dynamics), cost);
             let v = -1.0 + scale * impulse / inertia.mass;
             let lost = energy - 0.5 * inertia.mass * v * v;
             assert!((lost - share * cost).abs() < 1e-15 * energy, "{impulse} {cost}");
@@ -107,9 +115,10 @@ mod tests {
         let mut state = State::at(Point3::origin());
         state.velocity.z = -1.0;
         let cost = 0.1 - 0.5 * 0.01 / inertia.mass;
-        let (scale, short) = balance(&push(0.1), 1.05 * cost, &state, &dynamics);
+        let change = Change::of(&push(0.1), &state, &dynamics);
+        let (scale, short) = balance(change, 1.05 * cost);
         assert!((1.0..1.1).contains(&scale) && short.abs() < 1e-15, "{scale} {short:e}");
-        let (scale, short) = balance(&push(0.1), 3.0 * cost, &state, &dynamics);
+        let (scale, short) = balance(change, 3.0 * cost);
         assert!(scale == 1.2 && short > 0.0, "{scale} {short:e}");
     }
 }

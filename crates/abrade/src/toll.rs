@@ -31,7 +31,7 @@ pub(crate) struct Toll {
 }
 
 impl Push {
-    fn add(&mut self, other: &Self, pose: &Isometry3<f64>) {
+    pub(crate) fn add(&mut self, other: &Self, pose: &Isometry3<f64>) {
         self.impulse += pose * other.impulse;
         self.torque += pose * other.torque;
         self.friction += other.friction;

@@ -4,13 +4,14 @@ use nalgebra::Vector3;
 
 use crate::body::{Body, State};
 use crate::carried::Grip;
+use crate::carrier::Ride;
 use crate::contact::Contact;
 use crate::encounter::{Loads, Placed};
 use crate::inner_loop::Reaction;
-use crate::integrate::Integrator;
+use crate::integrate::{Integrator, top_speed};
 use crate::ledger::Ledger;
 use crate::node_law::Motion;
-use crate::projection::{balance, pay};
+use crate::projection::{Payment, balance, pay};
 use crate::rotation::Dynamics;
 #[cfg(feature = "state")]
 use crate::state::finite;
@@ -72,6 +73,15 @@ pub(crate) struct Charge {
     pub short: f64,
 }
 
+/// What columns and dashpots are foreseen to change over half a step, and the share of it that is
+/// believed.
+#[derive(Clone, Copy, Debug, Default)]
+struct Prediction {
+    velocity: Vector3<f64>,
+    spin: Vector3<f64>,
+    share: f64,
+}
+
 /// The accepted end of a step.
 pub(crate) struct Settled {
     pub state: State,
@@ -112,12 +122,19 @@ impl Trial {
         Grip { force, torque: (flow.torque + spring.torque) / self.dt }
     }
 
-    /// Highest angular frequency [1/s] of the body on the touching springs.
-    pub(crate) fn omega(&self, dynamics: &Dynamics) -> f64 {
+    /// Longest lever of a spring's force on the body [m].
+    pub(crate) fn lever(&self) -> f64 {
+        self.springs.lever_squared.sqrt()
+    }
+
+    /// Highest angular frequency [1/s] of the body on the touching springs, whose other ends give
+    /// way by `other` [1/kg].
+    pub(crate) fn omega(&self, dynamics: &Dynamics, other: f64) -> f64 {
         let springs = &self.springs;
-        let normal = (springs.normal_stiffness + self.toll.stiffness) * dynamics.inverse_mass;
+        let inverse_mass = dynamics.inverse_mass + other;
+        let normal = (springs.normal_stiffness + self.toll.stiffness) * inverse_mass;
         let turning = dynamics.agility() * springs.lever_squared;
-        let tangential = springs.tangential_stiffness * (dynamics.inverse_mass + turning);
+        let tangential = springs.tangential_stiffness * (inverse_mass + turning);
         normal.max(tangential).sqrt()
     }
 }
@@ -135,13 +152,19 @@ impl Integrator {
         let mut state = body.state;
         self.kick(body, loads, &self.pull.spring_force, &self.pull.spring_torque, half, &mut state);
         let kicked = state;
-        let swept = self.swept_prediction(body, half);
-        state.velocity += swept.0;
-        state.spin += swept.1;
+        let swept = self.swept_prediction(body, surfaces, half);
+        state.velocity += swept.velocity;
+        state.spin += swept.spin;
+        self.ride(body, surfaces, dt, swept.share);
         let (velocity, predicted) = (state.velocity, state.spin);
         let spin = self.dynamics.drift(&mut state, dt);
         state.velocity = kicked.velocity;
         state.spin += kicked.spin - predicted;
+        if !self.rides.is_empty() {
+            let momentum = |s: &State| self.dynamics.angular_momentum(&s.rotation, &s.spin);
+            let orbit = (velocity * dt).cross(&kicked.velocity) * body.inertia.mass;
+            self.ahead += orbit + momentum(&state) - momentum(&kicked);
+        }
         // In flight nothing can be touched, so nothing is asked.
         let surfaces = if flight { &[] } else { surfaces };
         let trial = self.ask(body, surfaces, &state, Course { velocity, spin, dt });
@@ -172,24 +195,35 @@ impl Integrator {
             overlap_change: 0.0,
         };
         let reach = (velocity.norm() + spin.norm() * body.shape.bounding_radius()) * dt;
-        for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
-            let end = state.seen_from(&placed.pose);
+        for (i, (contact, placed)) in self.contacts.iter_mut().zip(surfaces).enumerate() {
+            let ride = self.rides.get(i).and_then(Option::as_ref);
+            let pose = ride.map_or(placed.pose, |ride| ride.pose);
+            let end = state.seen_from(&pose);
             contact.cover(placed.surface, &body.shape, &end, reach.min(placed.surface.pitch()));
-            let motion = Motion {
-                velocity: placed.pose.inverse_transform_vector(&velocity),
-                spin: placed.pose.inverse_transform_vector(&spin),
-                dt,
+            let [velocity, spin] = match ride {
+                None => [velocity, spin].map(|v| placed.pose.inverse_transform_vector(&v)),
+                Some(ride) => ride.relative([&body.state, state], &velocity, &spin),
             };
+            let motion = Motion { velocity, spin, dt };
             match contact {
                 Contact::Springs(patch) => {
                     let reaction = patch.trial(placed.surface.laws(), &end, &motion);
-                    trial.springs.add(reaction, &placed.pose);
+                    trial.springs.add(reaction, &pose);
+                    if ride.is_some() {
+                        let grip = Grip { force: reaction.force, torque: reaction.torque };
+                        self.answers[i].springs = grip.turned(&pose);
+                    }
                 }
                 Contact::Columns(columns) => {
                     let start = body.state.seen_from(&placed.pose);
                     let poses = [&start, &end];
                     let toll = columns.trial(placed.surface, &body.shape, poses, &motion);
-                    trial.toll.add(toll, &placed.pose);
+                    let pose = ride.map_or(pose, Ride::middle);
+                    trial.toll.add(toll, &pose);
+                    if ride.is_some() {
+                        self.answers[i].flow.add(&toll.flow, &pose);
+                        self.answers[i].sprung.add(&toll.spring, &pose);
+                    }
                 }
             }
         }
@@ -203,26 +237,26 @@ impl Integrator {
     /// dashpots predicts. It places the step's end, nothing else: the balance does not use it. Without springs a
     /// blocked body's last force says nothing, so the prediction stays small; and a body whose
     /// moments differ keeps its spin, whose free turning must keep the energy.
-    fn swept_prediction(&self, body: &Body, half: f64) -> (Vector3<f64>, Vector3<f64>) {
+    fn swept_prediction(&self, body: &Body, surfaces: &[Placed<'_>], half: f64) -> Prediction {
         let pull = &self.pull;
         if self.is_damped && !self.touching {
             // The last step let go: what its dashpots did says nothing of a flight.
-            return Default::default();
+            return Prediction::default();
         }
         let force = pull.force - pull.spring_force;
         let torque = pull.torque - pull.spring_torque;
         let velocity = self.dynamics.accelerate(&(force * half));
         let spin = self.dynamics.turn(&body.state.rotation, &(torque * half));
         if self.is_damped || self.has_sprung_columns() {
-            return (velocity, spin);
+            return Prediction { velocity, spin, share: 1.0 };
         }
         let spin = if self.dynamics.is_isotropic() { spin } else { Vector3::zeros() };
         let radius = body.shape.bounding_radius();
-        let state = &body.state;
-        let speed = state.velocity.norm() + state.spin.norm() * radius;
+        let speed =
+            surfaces.iter().map(|placed| top_speed(placed, body)).fold(f64::INFINITY, f64::min);
         let change = velocity.norm() + spin.norm() * radius;
         let share = if change > 0.0 { (PREDICTION * speed / change).min(1.0) } else { 0.0 };
-        (velocity * share, spin * share)
+        Prediction { velocity: velocity * share, spin: spin * share, share }
     }
 
     fn has_sprung_columns(&self) -> bool {
@@ -249,16 +283,28 @@ impl Integrator {
         state.spin += self.dynamics.turn(&state.rotation, &push.torque);
     }
 
-    /// Takes what columns cost from a body in `state`, closed by the energy projection.
-    pub(crate) fn charge(&self, toll: &Toll, state: &mut State) -> Charge {
+    /// Takes what columns cost from a body in `state` and the carriers, closed by the energy
+    /// projection. A guided body is paid for by what leads it: nothing is scaled.
+    /// A `gain` [J] of the energy is taken with the wear.
+    pub(crate) fn charge(&mut self, toll: &Toll, gain: f64, state: &mut State) -> Charge {
+        let guided = self.dynamics.is_guided();
         let cost = toll.spring.friction + toll.elastic + toll.lost + self.short;
-        let (scale, short) = balance(&toll.spring, cost, state, &self.dynamics);
+        let (scale, short) = match guided {
+            true => (1.0, 0.0),
+            false => balance(self.change(&toll.spring, state, |answer| &answer.sprung), cost),
+        };
         let sprung = toll.spring.scaled(scale);
         self.apply(&sprung, state);
+        self.react(state, |answer| answer.sprung.scaled(scale));
         let cost = toll.wear + toll.flow.friction;
-        let payment = pay(&toll.flow, cost, state, &self.dynamics);
+        let cost = if cost > 0.0 { cost + gain } else { cost };
+        let payment = match guided {
+            true => Payment { scale: 1.0, share: 1.0 },
+            false => pay(self.change(&toll.flow, state, |answer| &answer.flow), cost),
+        };
         let flow = toll.flow.scaled(payment.scale);
         self.apply(&flow, state);
+        self.react(state, |answer| answer.flow.scaled(payment.scale));
         Charge {
             impulse: sprung.impulse + flow.impulse,
             torque: sprung.torque + flow.torque,
@@ -280,16 +326,20 @@ impl Integrator {
         let mut state = trial.state;
         let springs = &trial.springs;
         self.kick(body, loads, &springs.force, &springs.torque, 0.5 * dt, &mut state);
+        self.kick_carriers(surfaces, &state, 0.5 * dt);
+        let gained = self.give_back();
         let toll = &trial.toll;
         // The dashpots in halves around the springs: work at the mean velocity of the step.
         let half = self.is_damped.then(|| self.damping.half());
         if let Some(half) = &half {
             self.apply(half, &mut state);
+            self.react(&state, |answer| answer.damping.scaled(0.5));
         }
         let Charge { mut impulse, mut torque, flow_friction, share, short } =
-            self.charge(toll, &mut state);
+            self.charge(toll, gained, &mut state);
         if let Some(half) = &half {
             self.apply(half, &mut state);
+            self.react(&state, |answer| answer.damping.scaled(0.5));
             impulse += self.damping.impulse;
             torque += self.damping.torque;
         }
@@ -308,6 +358,7 @@ impl Integrator {
             damping: half.map_or(0.0, |_| self.damping.dissipated),
             wear: springs.ledger.wear + toll.wear * share,
             history: springs.ledger.history + toll.lost,
+            external_work: self.hold_on(body, surfaces, &state, dt),
             ..Ledger::default()
         };
         let mean = (self.pull.spring_force + springs.force) * (0.5 * dt);
@@ -367,7 +418,7 @@ impl Integrator {
             push,
         };
         self.touching = trial.touching > 0;
-        self.next_dt = self.eta / trial.omega(&self.dynamics);
+        self.next_dt = self.eta / self.omega(trial);
     }
 }
 

@@ -94,7 +94,7 @@ fn allocations(shape: Shape, elastic: ElasticLaw, flow: FlowLaw, removal: Remova
     [-40.0, 0.0, 40.0].map(|periods| {
         body.state = fired(periods * period);
         let mut watch = Watch::default();
-        let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+        let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
         let advance = encounter
             .advance(&mut body, &mut placed, &Loads::default(), 20.0, Until::FirstExit, &mut watch)
             .expect("an impact");

@@ -53,7 +53,7 @@ impl Carrier for Driven {
 
 impl<E: Carrier> Run<E> {
     fn go(&mut self, time: f64) -> Result<Advance, PhysicsError> {
-        let mut placed = [Placed { surface: &mut self.surface, pose: Isometry3::identity() }];
+        let mut placed = [Placed::at_rest(&mut self.surface, Isometry3::identity())];
         self.contact.go(&mut self.body, &mut placed, time)
     }
 
@@ -123,7 +123,7 @@ fn scratch(solution: DriveSolution, step_limit: u64) -> Run<Driven> {
     let drive = Drive { indent_to, load, speed: 0.2, distance: 0.4, mass: 0.02, solution };
     let settings = EncounterSettings { ledger: true, step_limit, ..Default::default() };
     let mut contact = Driven::new(&mut body, &surface, drive, settings).expect("a drive");
-    let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+    let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
     contact.indent(&mut body, &mut placed, &mut ()).expect("an indentation");
     Run { surface, body, contact }
 }

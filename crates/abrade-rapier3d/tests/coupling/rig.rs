@@ -128,7 +128,7 @@ pub fn by_core(start: State) -> (Vector3<f64>, Vector3<f64>, f64) {
     body.state = start;
     let settings = EncounterSettings::default();
     let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
-    let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+    let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
     let until = Until::Duration;
     let advance: Advance = encounter
         .advance(&mut body, &mut placed, &Loads::default(), 1e-3, until, &mut ())

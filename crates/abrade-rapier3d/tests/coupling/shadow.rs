@@ -81,7 +81,7 @@ fn loads_are_the_cores_affair() {
     let mut surface = surface();
     let settings = EncounterSettings::default();
     let mut encounter = Encounter::new(&start, [&surface], settings).expect("an encounter");
-    let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+    let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
     let dt = scalar::wide(rig.world.integration_parameters.dt);
     encounter
         .advance(&mut start, &mut placed, &loads, dt, Until::Duration, &mut ())

@@ -88,7 +88,7 @@ impl Range {
         body.state.position.y = y + self.case.at[1];
         let surface = &mut self.surface;
         let mut encounter = Encounter::new(&body, [&*surface], self.case.settings).expect("laws");
-        let mut placed = [Placed { surface, pose: Isometry3::identity() }];
+        let mut placed = [Placed::at_rest(surface, Isometry3::identity())];
         encounter
             .advance(&mut body, &mut placed, &Loads::default(), 1e9, Until::FirstExit, &mut ())
             .expect("an impact")

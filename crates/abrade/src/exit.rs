@@ -1,0 +1,91 @@
+//! Where a contact begins and ends: clear at the start, over once the body is out, given up when
+//! the body is below the surface.
+
+use crate::body::{Body, State};
+use crate::contact::Contact;
+use crate::encounter::Placed;
+use crate::error::PhysicsError;
+use crate::flight::separation;
+use crate::integrate::Integrator;
+
+/// Overlap at the first step, in bounding radii, above which a body counts as started inside.
+const INSIDE: f64 = 1e-3;
+/// Share of the kinetic energy before contact below which a body counts as stopped.
+const STOPPED: f64 = 1e-9;
+
+impl Integrator {
+    /// After a contact: time until the whole body is above the undeformed surfaces [s], so that a
+    /// flight step ends there.
+    pub(crate) fn rise_time(&self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
+        if !self.touched {
+            return f64::INFINITY;
+        }
+        let times = self.contacts.iter().zip(surfaces).map(|(contact, placed)| {
+            let local = placed.sees(&body.state);
+            crate::flight::rise_time(placed.surface, body, &local, contact.inflation())
+        });
+        times.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The body must not lie inside a surface before it has touched it.
+    pub(crate) fn start_clear(
+        &mut self,
+        body: &Body,
+        surfaces: &[Placed<'_>],
+    ) -> Result<(), PhysicsError> {
+        let depth = self.overlaps(body, surfaces).fold(0.0, f64::max);
+        match depth > INSIDE * body.shape.bounding_radius() {
+            true => Err(PhysicsError::StartsInside { depth }),
+            false => Ok(()),
+        }
+    }
+
+    /// True for a body out of contact and wholly above every undeformed surface.
+    pub(crate) fn contact_is_over(&self, body: &Body, surfaces: &[Placed<'_>]) -> bool {
+        let mut pairs = self.contacts.iter().zip(surfaces);
+        !self.touching
+            && pairs.all(|(contact, placed)| {
+                let local = placed.sees(&body.state);
+                separation(placed.surface, body, &local, contact.inflation()) >= 0.0
+            })
+    }
+
+    /// True for a body that surfaces without springs have brought to rest.
+    pub(crate) fn has_stopped(&self, body: &Body, surfaces: &[Placed<'_>]) -> bool {
+        self.touched
+            && self.contacts.iter().all(Contact::is_rigid)
+            && relative_energy(body, surfaces) < STOPPED * self.energy_before
+    }
+
+    pub(crate) fn end_contact(&mut self, surfaces: &mut [Placed<'_>]) {
+        for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
+            contact.end(placed.surface);
+        }
+        self.touching = false;
+        self.touched = false;
+    }
+
+    /// Distance between the boxes of the body and of the first surface [m].
+    pub(crate) fn gap(&self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
+        let (contact, placed) = (&self.contacts[0], &surfaces[0]);
+        let local = placed.sees(&body.state);
+        separation(placed.surface, body, &local, contact.inflation())
+    }
+}
+
+/// An error when the centre of mass is below the undeformed surface.
+pub(crate) fn engulfed(placed: &Placed<'_>, state: &State) -> Result<(), PhysicsError> {
+    let [low, high] = placed.surface.bounds();
+    let local = placed.pose.inverse_transform_point(&state.position);
+    let over = (0..2).all(|a| local[a] > low[a] && local[a] < high[a]);
+    if over && local.z < high.z {
+        return Err(PhysicsError::Engulfed { depth: high.z - local.z });
+    }
+    Ok(())
+}
+
+/// Least kinetic energy of a body as a surface sees it [J].
+pub(crate) fn relative_energy(body: &Body, surfaces: &[Placed<'_>]) -> f64 {
+    let energy = |placed: &Placed<'_>| body.inertia.kinetic_energy(&placed.sees(&body.state));
+    surfaces.iter().map(energy).fold(f64::INFINITY, f64::min)
+}
