@@ -59,7 +59,7 @@ impl WearWorld {
         let pose = scalar::to_pose(&(frame * middle(&worn.surface)));
         let kept = worn.shown.as_mut().filter(|shown| colliders.contains(shown.collider));
         let Some(shown) = kept else {
-            let builder = ColliderBuilder::new(field(&worn.surface))
+            let builder = ColliderBuilder::new(worn_shape(&worn.surface))
                 .position(pose)
                 .density(scalar::narrow(0.0))
                 .collision_groups(OF_QUERIES)
@@ -76,55 +76,84 @@ impl WearWorld {
         if let Some(collider) = colliders.get_mut(handle).filter(|_| stale || moved) {
             collider.set_position(pose);
             if stale {
-                collider.set_shape(field(&worn.surface));
+                collider.set_shape(worn_shape(&worn.surface));
             }
         }
         Ok(handle)
     }
 }
 
-/// Cells of the height field: columns, and half pitches along a column, which is where the nodes
-/// of every other column lie.
-fn cells(surface: &Surface) -> [usize; 2] {
-    let [columns, rows] = surface.columns_rows();
-    [columns.max(2) - 1, 2 * rows - 1]
-}
-
-/// Extents of a cell along x and y [m].
-fn cell(surface: &Surface) -> [f64; 2] {
-    [0.75f64.sqrt() * surface.pitch(), 0.5 * surface.pitch()]
-}
-
-/// Where the height field lies in the surface's frame. Its own x, y, z are the surface's y, z, x.
-fn middle(surface: &Surface) -> Isometry3<f64> {
-    let [along_x, along_y] = cells(surface);
-    let [x, y] = cell(surface);
-    let [columns, _] = surface.columns_rows();
-    // A lone column stands in the middle of its cell.
-    let half = if columns > 1 { 0.5 * along_x as f64 * x } else { 0.0 };
-    let to_middle = Vector3::new(half, 0.5 * along_y as f64 * y, 0.0);
-    let turn = UnitQuaternion::new_unchecked(Quaternion::new(0.5, 0.5, 0.5, 0.5));
-    let first = surface.nodes().rest_position[0].coords;
-    Isometry3::from_parts(Translation3::from(first + to_middle), turn)
-}
-
-/// A height field through every node; between two nodes of a column it has their mean.
-fn field(surface: &Surface) -> SharedShape {
-    let [columns, rows] = surface.columns_rows();
-    let ([along_x, along_y], [x, y]) = (cells(surface), cell(surface));
-    let depth = &surface.nodes().depth;
-    let mut heights = Vec::with_capacity((along_x + 1) * (along_y + 1));
-    for place in 0..=along_y {
-        for column in 0..=along_x {
-            let column = column.min(columns - 1);
-            let shift = column % 2;
-            let below = place.saturating_sub(shift) / 2;
-            let above = (place + 1).saturating_sub(shift) / 2;
-            let of = |row: usize| depth[column * rows + row.min(rows - 1)];
-            heights.push(scalar::narrow(-0.5 * (of(below) + of(above))));
-        }
+/// The worn shape of `surface`: a height field, or its facets.
+fn worn_shape(surface: &Surface) -> SharedShape {
+    if let Some(strip) = Strip::of(surface) {
+        return strip.field();
     }
-    let extent = Vector3::new(along_y as f64 * y, 1.0, along_x as f64 * x);
-    let heights = Array2::new(along_x + 1, along_y + 1, heights);
-    SharedShape::heightfield(heights, scalar::to_vector(&extent))
+    let nodes = surface.nodes();
+    let corner = |i: usize| scalar::to_vector(&nodes.position(i).coords);
+    let corners = (0..nodes.len()).map(corner).collect();
+    // Only a mesh without facets is refused.
+    SharedShape::trimesh(corners, surface.triangles()).unwrap_or_else(|_| SharedShape::ball(0.0))
+}
+
+/// Where that shape lies in the surface's frame.
+fn middle(surface: &Surface) -> Isometry3<f64> {
+    Strip::of(surface).map_or_else(Isometry3::identity, |strip| strip.middle())
+}
+
+/// A strip as a height field.
+struct Strip<'a> {
+    surface: &'a Surface,
+    columns: usize,
+    rows: usize,
+}
+
+impl<'a> Strip<'a> {
+    fn of(surface: &'a Surface) -> Option<Self> {
+        surface.columns_rows().map(|[columns, rows]| Self { surface, columns, rows })
+    }
+
+    /// Cells of the height field: columns, and half pitches along a column, which is where the
+    /// nodes of every other column lie.
+    fn cells(&self) -> [usize; 2] {
+        [self.columns.max(2) - 1, 2 * self.rows - 1]
+    }
+
+    /// Extents of a cell along x and y [m].
+    fn cell(&self) -> [f64; 2] {
+        let pitch = self.surface.pitch();
+        [0.75f64.sqrt() * pitch, 0.5 * pitch]
+    }
+
+    /// Where the height field lies in the surface's frame. Its own x, y, z are the surface's y, z,
+    /// x.
+    fn middle(&self) -> Isometry3<f64> {
+        let ([along_x, along_y], [x, y]) = (self.cells(), self.cell());
+        // A lone column stands in the middle of its cell.
+        let half = if self.columns > 1 { 0.5 * along_x as f64 * x } else { 0.0 };
+        let to_middle = Vector3::new(half, 0.5 * along_y as f64 * y, 0.0);
+        let turn = UnitQuaternion::new_unchecked(Quaternion::new(0.5, 0.5, 0.5, 0.5));
+        let first = self.surface.nodes().rest_position[0].coords;
+        Isometry3::from_parts(Translation3::from(first + to_middle), turn)
+    }
+
+    /// A height field through every node; between two nodes of a column it has their mean.
+    fn field(&self) -> SharedShape {
+        let Self { columns, rows, .. } = *self;
+        let ([along_x, along_y], [x, y]) = (self.cells(), self.cell());
+        let depth = &self.surface.nodes().depth;
+        let mut heights = Vec::with_capacity((along_x + 1) * (along_y + 1));
+        for place in 0..=along_y {
+            for column in 0..=along_x {
+                let column = column.min(columns - 1);
+                let shift = column % 2;
+                let below = place.saturating_sub(shift) / 2;
+                let above = (place + 1).saturating_sub(shift) / 2;
+                let of = |row: usize| depth[column * rows + row.min(rows - 1)];
+                heights.push(scalar::narrow(-0.5 * (of(below) + of(above))));
+            }
+        }
+        let extent = Vector3::new(along_y as f64 * y, 1.0, along_x as f64 * x);
+        let heights = Array2::new(along_x + 1, along_y + 1, heights);
+        SharedShape::heightfield(heights, scalar::to_vector(&extent))
+    }
 }

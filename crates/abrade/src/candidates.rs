@@ -87,14 +87,14 @@ impl Candidates {
                 let top = surface.grid().bounds()[1].coords.dot(&n) + margin;
                 bounds_below(shape, state, &n, top, margin)
             }
-            None => bounds(shape, state, margin),
+            None => bounds(shape, state, 2.0 * (margin + surface.worn().max_depth)),
         };
         let nodes = surface.nodes();
         self.read(&low, &high);
         surface.grid().visit(&low, &high, |i| {
             let x = nodes.rest_position[i] - nodes.normal[i] * surface.depth(i);
             let n = nodes.normal[i];
-            if swept.meets(&x, &n, margin) {
+            if swept.meets(&x, &n, margin, surface.reach(i as u32) - surface.depth(i)) {
                 self.slots.push(Slot { id: i as u32, x, n, area: nodes.rest_area[i] });
             }
         });

@@ -42,6 +42,8 @@ pub(crate) struct Step<'a> {
     pub reach: f64,
     /// Unit tangential direction of the motion over the column; zero at rest.
     pub heading: Vector3<f64>,
+    /// How far below the column's node the material is its own [m].
+    pub own: f64,
 }
 
 /// A step's trial on a column.
@@ -99,7 +101,7 @@ impl ColumnLaw {
         column: &Column,
         toll: &mut Toll,
     ) -> Option<Cut> {
-        let Some(span) = step.swept.span(&slot.x, &slot.n) else {
+        let Some(span) = step.swept.span(&slot.x, &slot.n, step.own) else {
             // The body left sideways: what the spring still held pushes nobody.
             let stored = self.stored(slot.area, column.squeeze);
             toll.elastic -= stored;
@@ -114,7 +116,7 @@ impl ColumnLaw {
         let mut cut = Cut::default();
         let mut flow = Taken::default();
         if low < 0.0 {
-            cut.pieces = column.solid(low, high);
+            cut.pieces = column.solid(low.max(-step.own), high);
             for piece in cut.pieces.iter() {
                 self.charge(step, slot, &span, piece, &mut flow, toll);
             }
@@ -122,6 +124,8 @@ impl ColumnLaw {
         let flows = flow.length > 0.0;
         if self.yield_overlap > 0.0 {
             let after = match flows {
+                // The deep end lies in the material of other columns.
+                _ if low < -step.own => 0.0,
                 true => self.yield_overlap,
                 false => {
                     let over = column.level_below(low) - span.low;

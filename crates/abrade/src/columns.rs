@@ -92,7 +92,7 @@ impl Columns {
     pub(crate) fn deepest(&mut self, surface: &Surface, shape: &Shape, state: &State) -> f64 {
         self.swept.place(shape, state, state, surface.level());
         let inside = |slot: &Slot| {
-            let span = self.swept.span(&slot.x, &slot.n);
+            let span = self.swept.span(&slot.x, &slot.n, own(surface, slot));
             span.map_or(0.0, |s| if s.high > 0.0 { -s.low } else { 0.0 })
         };
         self.candidates.slots.iter().map(inside).fold(0.0, f64::max)
@@ -128,9 +128,16 @@ impl Columns {
         self.gaps.extend(columns.map(|(slot, column)| match column.squeeze > 0.0 {
             // A spring is let go as soon as the body is past it.
             true => 0.0,
-            false => gap(&self.swept, slot, column.open_depth(), margin),
+            false => gap(&self.swept, slot, column.open_depth(), margin, own(surface, slot)),
         }));
         self.cuts.reserve(slots.len().saturating_sub(self.cuts.len()));
+    }
+
+    /// How far the body at `state` may move before it can touch a column [m].
+    pub(crate) fn room(&self, shape: &Shape, state: &State) -> f64 {
+        let slack = self.candidates.slack(shape, state);
+        let least = self.gaps.iter().copied().fold(f64::INFINITY, f64::min);
+        (least - self.candidates.travelled(shape, state)).min(slack).max(0.0)
     }
 
     /// Takes every column through a step; commits nothing.
@@ -150,6 +157,7 @@ impl Columns {
             reach: (end.position - start.position).norm()
                 + motion.spin.norm() * motion.dt * shape.bounding_radius(),
             heading: Vector3::zeros(),
+            own: f64::INFINITY,
         };
         let mut normal = Vector3::zeros();
         self.toll = Toll::default();
@@ -164,6 +172,7 @@ impl Columns {
                 normal = slot.n;
                 step.heading = heading(&motion.velocity, &normal);
             }
+            step.own = own(surface, slot);
             let cut = self.law.sweep(&step, slot, &self.columns[index], &mut self.toll);
             self.cuts.extend(cut.map(|cut| Cut { index: index as u32, ..cut }));
         }
@@ -175,7 +184,8 @@ impl Columns {
         for cut in &self.cuts {
             let index = cut.index as usize;
             let (slot, before) = (&self.candidates.slots[index], self.columns[index].squeeze);
-            let Some(span) = self.swept.span(&slot.x, &slot.n) else { continue };
+            let own = f64::INFINITY;
+            let Some(span) = self.swept.span(&slot.x, &slot.n, own) else { continue };
             if before != 0.0 || cut.squeeze != 0.0 {
                 let arm = slot.x + slot.n * span.low - self.middle;
                 dashpots.add(self.law.pressed(slot, &span, arm, [before, cut.squeeze]));
@@ -238,11 +248,21 @@ impl Columns {
     }
 }
 
+/// How far below the place of a column at the first touch the material is its own [m].
+fn own(surface: &Surface, slot: &Slot) -> f64 {
+    let reach = surface.reach(slot.id);
+    if reach == f64::INFINITY {
+        return reach;
+    }
+    let worn = (surface.nodes().rest_position[slot.id as usize] - slot.x).dot(&slot.n);
+    (reach - worn).max(0.0)
+}
+
 /// A travel [m], at most `margin`, within which the body cannot touch the column whose solid
 /// begins `depth` [m] below its node.
-fn gap(swept: &Swept, slot: &Slot, depth: f64, margin: f64) -> f64 {
+fn gap(swept: &Swept, slot: &Slot, depth: f64, margin: f64, reach: f64) -> f64 {
     let top = slot.x - slot.n * depth;
-    let meets = |travel: f64| swept.meets(&top, &slot.n, travel);
+    let meets = |travel: f64| swept.meets(&top, &slot.n, travel, reach);
     if !meets(margin) {
         return margin;
     }

@@ -49,6 +49,11 @@ impl Contact {
             }
         }
         let hertz = matches!(laws.elastic, ElasticLaw::HertzNodes { .. });
+        if hertz && shape.has_faces() && !surface.is_flat() {
+            return Err(PhysicsError::Unsupported {
+                what: "HertzNodes on a mesh knows no faces: take Foundation, or a body of balls",
+            });
+        }
         Ok(match rigid || (shape.has_faces() && !hertz) {
             true => Self::Columns(Columns::new(shape, laws)),
             false => Self::Springs(Patch::new(shape, surface, keeps_ledger)),

@@ -5,11 +5,15 @@ use crate::body::{Body, State};
 use crate::contact::Contact;
 use crate::encounter::Placed;
 use crate::error::PhysicsError;
-use crate::flight::separation;
-use crate::integrate::Integrator;
+use crate::extent::{bounds, clearance};
+use crate::flight::{rise_time, separation};
+use crate::integrate::{Integrator, top_speed};
+use crate::surface::Surface;
 
 /// Overlap at the first step, in bounding radii, above which a body counts as started inside.
 const INSIDE: f64 = 1e-3;
+/// Way of a body between two looks at whether it is clear of a mesh, in pitches.
+const RISE_PITCH: f64 = 0.25;
 /// Share of the kinetic energy before contact below which a body counts as stopped.
 const STOPPED: f64 = 1e-9;
 
@@ -22,7 +26,10 @@ impl Integrator {
         }
         let times = self.contacts.iter().zip(surfaces).map(|(contact, placed)| {
             let local = placed.sees(&body.state);
-            crate::flight::rise_time(placed.surface, body, &local, contact.inflation())
+            match placed.surface.is_flat() {
+                true => rise_time(placed.surface, body, &local, contact.inflation()),
+                false => RISE_PITCH * placed.surface.pitch() / top_speed(placed, body),
+            }
         });
         times.fold(f64::INFINITY, f64::min)
     }
@@ -46,7 +53,9 @@ impl Integrator {
         !self.touching
             && pairs.all(|(contact, placed)| {
                 let local = placed.sees(&body.state);
-                separation(placed.surface, body, &local, contact.inflation()) >= 0.0
+                let inflation = contact.inflation();
+                separation(placed.surface, body, &local, inflation) >= 0.0
+                    || is_clear(placed.surface, body, &local, inflation)
             })
     }
 
@@ -73,15 +82,25 @@ impl Integrator {
     }
 }
 
+/// True for a body that no undeformed node of a mesh lies in. Flat surfaces go by their plane.
+fn is_clear(surface: &Surface, body: &Body, local: &State, inflation: f64) -> bool {
+    if surface.is_flat() {
+        return false;
+    }
+    let [low, high] = bounds(&body.shape, local, inflation);
+    let rest = &surface.nodes().rest_position;
+    let mut clear = true;
+    surface.grid().visit(&low, &high, |i| {
+        clear &= clearance(&body.shape, local, &rest[i]) >= inflation;
+    });
+    clear
+}
+
 /// An error when the centre of mass is below the undeformed surface.
 pub(crate) fn engulfed(placed: &Placed<'_>, state: &State) -> Result<(), PhysicsError> {
-    let [low, high] = placed.surface.bounds();
     let local = placed.pose.inverse_transform_point(&state.position);
-    let over = (0..2).all(|a| local[a] > low[a] && local[a] < high[a]);
-    if over && local.z < high.z {
-        return Err(PhysicsError::Engulfed { depth: high.z - local.z });
-    }
-    Ok(())
+    let depth = placed.surface.depth_of(&local);
+    if depth > 0.0 { Err(PhysicsError::Engulfed { depth }) } else { Ok(()) }
 }
 
 /// Least kinetic energy of a body as a surface sees it [J].

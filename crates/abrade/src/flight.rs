@@ -8,6 +8,9 @@ use crate::extent::bounds;
 use crate::shape::Piece;
 use crate::surface::Surface;
 
+/// Reach of the columns that a flight looks at, in pitches.
+const COLUMNS_PITCH: f64 = 4.0;
+
 /// Time [s] in which a body that moves as `local` as seen from `surface`, with an `acceleration` at
 /// most [m/s2], cannot touch it; zero when it may touch at once.
 pub(crate) fn free_time(
@@ -18,13 +21,21 @@ pub(crate) fn free_time(
     acceleration: f64,
 ) -> f64 {
     let apart = box_time(surface, body, local, acceleration, contact.inflation());
-    let Contact::Springs(patch) = contact else { return apart };
     if apart > 0.0 {
         return apart;
     }
+    let speed = local.velocity.norm() + local.spin.norm() * turning_reach(body);
+    let patch = match contact {
+        Contact::Springs(patch) => patch,
+        // Over a flat surface the box of the nodes says all.
+        Contact::Columns(_) if surface.is_flat() => return 0.0,
+        Contact::Columns(columns) => {
+            columns.cover(surface, &body.shape, local, COLUMNS_PITCH * surface.pitch());
+            return time_to_close(columns.room(&body.shape, local), speed, acceleration);
+        }
+    };
     let margin = 0.5 * surface.pitch();
     patch.cover(surface, &body.shape, local, margin);
-    let speed = local.velocity.norm() + local.spin.norm() * turning_reach(body);
     let covered = time_to_close(patch.slack(&body.shape, local).max(0.0), speed, acceleration);
     patch.time_to_touch(local, speed, acceleration).min(covered)
 }

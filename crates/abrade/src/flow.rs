@@ -201,6 +201,8 @@ mod tests {
             n: Vector3::z(),
             area: AREA,
             friction: 0.0,
+            jump: f64::INFINITY,
+            steep: f64::NEG_INFINITY,
             heading: Vector3::zeros(),
             trial_stretch: Vector3::zeros(),
         }

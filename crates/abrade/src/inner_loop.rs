@@ -7,7 +7,7 @@ use crate::candidates::Slot;
 use crate::elastic::Elastic;
 use crate::flow::Flow;
 use crate::ledger::Ledger;
-use crate::node_law::{Answer, Motion, NodeStep, STEEP, Spring, heading, resolve};
+use crate::node_law::{Answer, Motion, NodeStep, STEEP, Spring, heading, resolve, stored};
 use crate::query::Query;
 
 /// Laws, body and motion of a step.
@@ -17,6 +17,8 @@ pub(crate) struct InnerLoop<'a, E, F, Q> {
     pub query: &'a Q,
     pub friction: f64,
     pub motion: &'a Motion,
+    /// Yield overlap on a closed surface [m]; infinite on a flat one.
+    pub jump: f64,
 }
 
 /// What the nodes of a patch do to the body at the end of a step.
@@ -74,6 +76,8 @@ impl<E: Elastic, F: Flow, Q: Query> InnerLoop<'_, E, F, Q> {
             n: Vector3::zeros(),
             area: 0.0,
             friction: self.friction,
+            jump: self.jump,
+            steep: if self.jump < f64::INFINITY { STEEP } else { f64::NEG_INFINITY },
             heading: Vector3::zeros(),
             trial_stretch: Vector3::zeros(),
         };
@@ -101,6 +105,14 @@ impl<E: Elastic, F: Flow, Q: Query> InnerLoop<'_, E, F, Q> {
                 }
                 None => {
                     sum.overlap_change = sum.overlap_change.max(old.overlap);
+                    if LEDGER && old.overlap > 0.0 {
+                        let touch = self.query.touch(&slot.x, &slot.n);
+                        // Let go while pressed: the body has come round to the other side of it.
+                        if touch.overlap > 0.0 {
+                            sum.ledger.history +=
+                                stored(self.elastic, touch.coefficient, old, slot.area);
+                        }
+                    }
                     new.release();
                 }
             }
@@ -143,9 +155,7 @@ impl Ledger {
             |overlap| node.elastic.tangential_stiffness(coefficient, overlap, node.area);
         let tangential = spring.tangential_force;
         let now = stiffness(spring.overlap);
-        let stretched = if now > 0.0 { 0.5 * tangential * tangential / now } else { 0.0 };
-        self.elastic +=
-            node.elastic.normal_energy(coefficient, spring.overlap, node.area) + stretched;
+        self.elastic += stored(node.elastic, coefficient, spring, node.area);
         self.friction += 0.5 * (old.tangential_force + tangential) * k.slip;
         let flowed = old.drop.normal + old.drop.lateral > 0.0;
         let mean = if flowed { 0.5 * (old.normal_load + k.normal_load) } else { k.normal_load };

@@ -69,6 +69,10 @@ pub(crate) struct NodeStep<'a, E, Q> {
     pub n: Vector3<f64>,
     pub area: f64,
     pub friction: f64,
+    /// On a closed surface a node is met from outside or not at all: with an overlap that the body
+    /// made in this step, to `jump` [m], and a face that looks at it, by more than `steep`.
+    pub jump: f64,
+    pub steep: f64,
     /// Unit tangential direction of the body's motion; zero at rest.
     pub heading: Vector3<f64>,
     /// Tangential stretch before the drop [m].
@@ -180,6 +184,15 @@ impl<E: Elastic, Q: Query> NodeStep<'_, E, Q> {
     }
 }
 
+/// Energy of the spring of a node of `area` [m2] [J].
+pub(crate) fn stored<E: Elastic>(elastic: E, coefficient: f64, spring: &Spring, area: f64) -> f64 {
+    let Spring { overlap, tangential_force, .. } = *spring;
+    let stiffness = elastic.tangential_stiffness(coefficient, overlap, area);
+    let stretched =
+        if stiffness > 0.0 { 0.5 * tangential_force * tangential_force / stiffness } else { 0.0 };
+    elastic.normal_energy(coefficient, overlap, area) + stretched
+}
+
 /// Tolerance of the root relative to the fall of the excess over the limit, and the number of
 /// steps after which it is taken as it is.
 const ROOT: f64 = 1e-9;
@@ -219,6 +232,10 @@ pub(crate) fn resolve<E: Elastic, Q: Query, F: Flow>(
     let turning = motion.spin.cross(&trial.arm);
     let step = (motion.velocity + turning) * motion.dt;
     let approach = m.dot(&step);
+    let missed = !was_in_contact && trial.overlap > approach.max(0.0) + node.jump;
+    if missed || -m.dot(&node.n) <= node.steep {
+        return None;
+    }
     // Share of the step spent in contact.
     let share =
         if was_in_contact || approach <= 0.0 { 1.0 } else { (trial.overlap / approach).min(1.0) };

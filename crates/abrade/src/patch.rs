@@ -6,7 +6,7 @@ use std::marker::PhantomData;
 use nalgebra::Vector3;
 
 use crate::body::State;
-use crate::candidates::Candidates;
+use crate::candidates::{Candidates, Slot};
 use crate::damping::{Dashpots, Shear, Sprung, damping_ratio};
 use crate::elastic::{Elastic, Foundation, HertzNodes, coefficient};
 use crate::flight::time_to_close;
@@ -14,7 +14,7 @@ use crate::flow::{CapozzaHanley, Eq5, Flow, NormalPressure, Projected};
 use crate::inner_loop::{InnerLoop, Reaction};
 use crate::laws::{ElasticLaw, FlowLaw, Lateral};
 use crate::material::Material;
-use crate::node_law::{Motion, STEEP, Spring};
+use crate::node_law::{Motion, STEEP, Spring, stored};
 use crate::query::{BodyQuery, Contactor, Query, Touch};
 use crate::shape::Shape;
 #[cfg(feature = "state")]
@@ -30,6 +30,8 @@ pub(crate) struct Patch {
     inflation: f64,
     yield_overlap: f64,
     keeps_ledger: bool,
+    /// The surface is that of a solid.
+    is_closed: bool,
     /// zeta of the dashpots; zero without them.
     damping_ratio: f64,
     pub(crate) candidates: Candidates,
@@ -38,7 +40,10 @@ pub(crate) struct Patch {
     #[cfg_attr(feature = "state", serde(skip))]
     new: Vec<Spring>,
     #[cfg_attr(feature = "state", serde(skip))]
-    carried: Vec<(u32, Spring)>,
+    carried: Vec<(u32, Spring, f64)>,
+    /// Energy of springs under nodes that were used up, to be booked with the next step [J].
+    #[cfg_attr(feature = "state", serde(skip))]
+    lost: f64,
     /// Of the last trial.
     #[cfg_attr(feature = "state", serde(skip))]
     reaction: Reaction,
@@ -58,11 +63,13 @@ impl Patch {
             inflation,
             yield_overlap: yield_overlap(&contactors, surface),
             keeps_ledger,
+            is_closed: !surface.is_flat(),
             damping_ratio: damping_ratio(laws.restitution),
             candidates: Candidates::default(),
             old: Vec::new(),
             new: Vec::new(),
             carried: Vec::new(),
+            lost: 0.0,
             reaction: Reaction::default(),
         }
     }
@@ -87,27 +94,44 @@ impl Patch {
         if self.candidates.slack(shape, state) >= 0.0 {
             return;
         }
-        self.carried.clear();
-        let slots = self.candidates.slots.iter().zip(&self.old);
-        self.carried.extend(
-            slots
-                .filter(|(_, spring)| spring.overlap > 0.0)
-                .map(|(slot, spring)| (slot.id, *spring)),
-        );
+        let mut carried = std::mem::take(&mut self.carried);
+        carried.clear();
+        let pressed = self.candidates.slots.iter().zip(&self.old).filter(|(_, s)| s.overlap > 0.0);
+        carried.extend(pressed.map(|(slot, s)| (slot.id, *s, self.stored(&surface.laws, slot, s))));
         self.candidates.collect(surface, shape, state, self.inflation, margin);
         let count = self.candidates.slots.len();
         for springs in [&mut self.old, &mut self.new] {
             springs.clear();
             springs.resize(count, Spring::default());
         }
-        let mut from = self.carried.iter().peekable();
+        let mut from = carried.iter().peekable();
         for (slot, spring) in self.candidates.slots.iter().zip(&mut self.old) {
-            while from.peek().is_some_and(|(id, _)| *id < slot.id) {
-                from.next();
+            while let Some((.., energy)) = from.next_if(|(id, ..)| *id < slot.id) {
+                self.lost += energy;
             }
-            if let Some((_, carried)) = from.next_if(|(id, _)| *id == slot.id) {
-                *spring = *carried;
+            if let Some((_, kept, _)) = from.next_if(|(id, ..)| *id == slot.id) {
+                *spring = *kept;
             }
+        }
+        self.lost += from.map(|(.., energy)| energy).sum::<f64>();
+        self.carried = carried;
+    }
+
+    /// Energy of the spring under a candidate [J]; zero where no ledger is kept.
+    fn stored(&self, laws: &SurfaceLaws, slot: &Slot, spring: &Spring) -> f64 {
+        if !self.keeps_ledger {
+            return 0.0;
+        }
+        let touch = match &self.query {
+            BodyQuery::Ball(query) => query.touch(&slot.x, &slot.n),
+            BodyQuery::Clump(query) => query.touch(&slot.x, &slot.n),
+        };
+        let (poisson, coefficient) = (laws.material.poisson, touch.coefficient);
+        match laws.elastic {
+            ElasticLaw::HertzNodes { .. } => {
+                stored(HertzNodes::new(poisson), coefficient, spring, slot.area)
+            }
+            _ => stored(Foundation::new(poisson), coefficient, spring, slot.area),
         }
     }
 
@@ -169,6 +193,7 @@ impl Patch {
             _ => self.with_elastic(Foundation::new(poisson), laws, motion),
         };
         reaction.overlap_change /= self.yield_overlap;
+        reaction.ledger.history += self.lost;
         self.reaction = reaction;
         &self.reaction
     }
@@ -206,18 +231,23 @@ impl Patch {
         motion: &Motion,
     ) -> Reaction {
         let (slots, old, new) = (&self.candidates.slots, &self.old, &mut self.new);
+        let jump = if self.is_closed { self.yield_overlap } else { f64::INFINITY };
         match (&self.query, self.keeps_ledger) {
             (BodyQuery::Ball(query), false) => {
-                InnerLoop { elastic, flow, query, friction, motion }.run::<false>(slots, old, new)
+                InnerLoop { elastic, flow, query, friction, motion, jump }
+                    .run::<false>(slots, old, new)
             }
             (BodyQuery::Ball(query), true) => {
-                InnerLoop { elastic, flow, query, friction, motion }.run::<true>(slots, old, new)
+                InnerLoop { elastic, flow, query, friction, motion, jump }
+                    .run::<true>(slots, old, new)
             }
             (BodyQuery::Clump(query), false) => {
-                InnerLoop { elastic, flow, query, friction, motion }.run::<false>(slots, old, new)
+                InnerLoop { elastic, flow, query, friction, motion, jump }
+                    .run::<false>(slots, old, new)
             }
             (BodyQuery::Clump(query), true) => {
-                InnerLoop { elastic, flow, query, friction, motion }.run::<true>(slots, old, new)
+                InnerLoop { elastic, flow, query, friction, motion, jump }
+                    .run::<true>(slots, old, new)
             }
         }
     }
@@ -296,6 +326,7 @@ impl Patch {
             }
         }
         std::mem::swap(&mut self.old, &mut self.new);
+        self.lost = 0.0;
         let (worn, reaction) = (&mut surface.gain, &self.reaction);
         worn.peak_normal_force = worn.peak_normal_force.max(reaction.normal_load);
         worn.peak_touching = worn.peak_touching.max(reaction.touching);
@@ -338,7 +369,7 @@ fn inflation(elastic: &ElasticLaw) -> f64 {
 
 fn yield_overlap(contactors: &[Contactor], surface: &Surface) -> f64 {
     let SurfaceLaws { material, elastic, .. } = &surface.laws;
-    let area = surface.nodes().rest_area[0];
+    let area = surface.least_area();
     let of = |c: &Contactor| match elastic {
         ElasticLaw::HertzNodes { .. } => {
             HertzNodes::new(material.poisson).yield_overlap(c.coefficient, material.hardness, area)

@@ -8,11 +8,13 @@ use nalgebra::{Point3, Vector3};
 use crate::error::{ParameterError, SurfaceError};
 use crate::grid::Grid;
 use crate::laws::{ElasticLaw, FlowLaw, Lateral, Removal};
+use crate::layout::{Layout, strip_positions};
 use crate::leaf::{Changes, Leaf};
 use crate::material::Material;
+use crate::mesh::TriangleMesh;
 use crate::nodes::Nodes;
 #[cfg(feature = "state")]
-use crate::state::{Fault, finite, not_negative, positive, require};
+use crate::surface_state::SurfaceState;
 
 /// Nodes a surface may have: indices are 32 bits wide, and a node takes about 90 bytes.
 pub const NODE_LIMIT: f64 = 2e8;
@@ -70,23 +72,26 @@ pub struct Worn {
     pub indented_area: f64,
 }
 
-/// A surface that wears. Its frame has its origin at the node nearest its middle.
+/// A surface that wears. The frame of a strip has its origin at the node nearest its middle; that
+/// of a mesh is the one in which the mesh is given.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "state", serde(try_from = "SurfaceState", into = "SurfaceState"))]
 pub struct Surface {
     /// Empty for a leaf, as the grid.
-    nodes: Nodes,
+    pub(crate) nodes: Nodes,
     grid: Grid,
     leaf: Option<Box<Leaf>>,
     pub(crate) laws: SurfaceLaws,
     /// What was worn until the last [`Surface::settle`], and since.
-    worn: Worn,
+    pub(crate) worn: Worn,
     pub(crate) gain: Worn,
     /// The normal of every node, where they agree.
     level: Option<Vector3<f64>>,
-    columns_rows: [usize; 2],
+    layout: Layout,
     pitch: f64,
+    /// Smallest area of a node [m2].
+    least_area: f64,
 }
 
 impl Worn {
@@ -208,8 +213,13 @@ impl Surface {
     }
 
     /// A flat lattice of the given numbers of columns and rows, unworn.
-    fn lattice(columns_rows: [usize; 2], pitch: f64, area: f64, laws: SurfaceLaws) -> Self {
-        let rest_position = positions(columns_rows, pitch);
+    pub(crate) fn lattice(
+        columns_rows: [usize; 2],
+        pitch: f64,
+        area: f64,
+        laws: SurfaceLaws,
+    ) -> Self {
+        let rest_position = strip_positions(columns_rows, pitch);
         let count = rest_position.len();
         Self {
             grid: Grid::new(&rest_position, 4.0 * pitch),
@@ -224,9 +234,49 @@ impl Surface {
             worn: Worn::default(),
             gain: Worn::default(),
             level: Some(Vector3::z()),
-            columns_rows,
+            layout: Layout::Strip { columns_rows },
             pitch,
+            least_area: area,
         }
+    }
+
+    /// The surface of a solid: a node at every vertex of `mesh`, its normal and its area from the
+    /// facets around it. A node wears what lies below it, down to where another part
+    /// of the surface is as near.
+    ///
+    /// # Errors
+    /// A parameter out of range, too many nodes.
+    pub fn mesh(mesh: &TriangleMesh, laws: SurfaceLaws) -> Result<Self, SurfaceError> {
+        if let Some(error) = laws.check().into_iter().next() {
+            return Err(error);
+        }
+        let nodes = mesh.vertices().len() as f64;
+        if nodes > NODE_LIMIT {
+            return Err(SurfaceError::TooManyNodes { nodes, limit: NODE_LIMIT });
+        }
+        Self::closed(mesh.nodes(), mesh.triangles(), mesh.pitch(), laws)
+            .ok_or(SurfaceError::NoNodes { reason: "the mesh bounds no solid".into() })
+    }
+
+    /// The surface of the solid that `triangles` bound, unworn; None when they bound none.
+    pub(crate) fn closed(
+        nodes: Nodes,
+        triangles: &[[u32; 3]],
+        pitch: f64,
+        laws: SurfaceLaws,
+    ) -> Option<Self> {
+        Some(Self {
+            layout: Layout::mesh(&nodes, triangles)?,
+            grid: Grid::new(&nodes.rest_position, 4.0 * pitch),
+            least_area: nodes.rest_area.iter().copied().fold(f64::INFINITY, f64::min),
+            nodes,
+            leaf: None,
+            laws,
+            worn: Worn::default(),
+            gain: Worn::default(),
+            level: None,
+            pitch,
+        })
     }
 
     /// A leaf of `below`: wears as it would, and leaves it as it is. See [`Surface::into_changes`].
@@ -239,8 +289,9 @@ impl Surface {
             worn: below.worn(),
             gain: Worn::default(),
             level: below.level,
-            columns_rows: below.columns_rows,
+            layout: below.layout.clone(),
             pitch: below.pitch,
+            least_area: below.least_area,
         }
     }
 
@@ -302,15 +353,58 @@ impl Surface {
         worn
     }
 
-    /// Distance of neighbouring nodes [m].
+    /// Distance of neighbouring nodes [m]; of a mesh, that of a close packing of as many.
     pub fn pitch(&self) -> f64 {
         self.pitch
     }
 
-    /// Numbers of columns along x and of rows along y. Node `row` of a column is the column's
-    /// number times the rows, plus `row`; odd columns are shifted by half a pitch.
-    pub fn columns_rows(&self) -> [usize; 2] {
-        self.columns_rows
+    /// Numbers of columns along x and of rows along y of a strip. Node `row` of a column is the
+    /// column's number times the rows, plus `row`; odd columns are shifted by half a pitch.
+    pub fn columns_rows(&self) -> Option<[usize; 2]> {
+        match self.layout {
+            Layout::Strip { columns_rows } => Some(columns_rows),
+            Layout::Mesh(_) => None,
+        }
+    }
+
+    /// True for a strip, whose normals all point along +z.
+    pub fn is_flat(&self) -> bool {
+        self.level.is_some()
+    }
+
+    /// How far below node `i` the material is its own [m]: without end under a strip, down to the
+    /// medial axis of a solid.
+    pub(crate) fn reach(&self, i: u32) -> f64 {
+        match &self.layout {
+            Layout::Strip { .. } => f64::INFINITY,
+            Layout::Mesh(meshed) => meshed.reach[i as usize],
+        }
+    }
+
+    /// Smallest area of a node [m2].
+    pub(crate) fn least_area(&self) -> f64 {
+        self.least_area
+    }
+
+    /// Depth of a point of the surface's frame below the undeformed surface [m]; zero outside.
+    pub(crate) fn depth_of(&self, point: &Point3<f64>) -> f64 {
+        let [low, high] = self.bounds();
+        match &self.layout {
+            Layout::Strip { .. } => {
+                let over = (0..2).all(|a| point[a] > low[a] && point[a] < high[a]);
+                if over { (high.z - point.z).max(0.0) } else { 0.0 }
+            }
+            Layout::Mesh(meshed) => meshed.solid.depth(point),
+        }
+    }
+
+    /// Facets of a mesh.
+    #[cfg(feature = "state")]
+    pub(crate) fn facets(&self) -> Option<&[[u32; 3]]> {
+        match &self.layout {
+            Layout::Strip { .. } => None,
+            Layout::Mesh(meshed) => Some(meshed.solid.triangles()),
+        }
     }
 
     /// The normal of every node, where they agree.
@@ -342,81 +436,8 @@ impl Surface {
         self.grid().bounds()
     }
 
-    /// Triangles between neighbouring nodes, for display.
+    /// Triangles between neighbouring nodes; of a mesh, its facets.
     pub fn triangles(&self) -> Vec<[u32; 3]> {
-        let [columns, rows] = self.columns_rows;
-        let mut triangles = Vec::with_capacity(2 * columns * rows);
-        for column in 0..columns.saturating_sub(1) {
-            for row in 0..rows.saturating_sub(1) {
-                let [a, b] = [column * rows + row, (column + 1) * rows + row].map(|i| i as u32);
-                triangles.extend(match column % 2 {
-                    0 => [[a, b, a + 1], [b, b + 1, a + 1]],
-                    _ => [[a, b, b + 1], [a, b + 1, a + 1]],
-                });
-            }
-        }
-        triangles
-    }
-}
-
-/// Undeformed positions about the node nearest the middle, column by column [m].
-fn positions([columns, rows]: [usize; 2], pitch: f64) -> Vec<Point3<f64>> {
-    let across = pitch * 0.75f64.sqrt();
-    let site = |column: usize, row: usize| {
-        let shift = 0.5 * (column % 2) as f64;
-        Point3::new(column as f64 * across, (row as f64 + shift) * pitch, 0.0)
-    };
-    let middle = site((columns - 1) / 2, (rows - 1) / 2).coords;
-    let rows_of = |column| (0..rows).map(move |row| site(column, row) - middle);
-    (0..columns).flat_map(rows_of).collect()
-}
-
-/// A surface as bytes hold it: its lattice is laid out anew.
-#[cfg(feature = "state")]
-#[derive(serde::Serialize, serde::Deserialize)]
-struct SurfaceState {
-    columns_rows: [usize; 2],
-    pitch: f64,
-    area: f64,
-    laws: SurfaceLaws,
-    worn: Worn,
-    gain: Worn,
-    depth: Vec<f64>,
-}
-
-#[cfg(feature = "state")]
-impl From<Surface> for SurfaceState {
-    fn from(surface: Surface) -> Self {
-        Self {
-            columns_rows: surface.columns_rows,
-            pitch: surface.pitch,
-            area: surface.nodes.rest_area[0],
-            laws: surface.laws,
-            worn: surface.worn,
-            gain: surface.gain,
-            depth: surface.nodes.depth,
-        }
-    }
-}
-
-#[cfg(feature = "state")]
-impl TryFrom<SurfaceState> for Surface {
-    type Error = Fault;
-
-    fn try_from(state: SurfaceState) -> Result<Self, Fault> {
-        let SurfaceState { columns_rows, pitch, area, laws, worn, gain, depth } = state;
-        let [columns, rows] = columns_rows;
-        let count = columns.checked_mul(rows);
-        require(count == Some(depth.len()) && count != Some(0), "a surface lacks nodes")?;
-        let extent = pitch * columns.max(rows) as f64;
-        let fine = positive(pitch) && positive(area) && extent.is_finite();
-        require(fine && laws.check().is_empty(), "a surface or its laws are out of range")?;
-        let whole = |w: &Worn| finite(&[w.normal, w.lateral, w.chip, w.removed]);
-        let fine = whole(&worn) && whole(&gain) && depth.iter().all(|&depth| not_negative(depth));
-        require(fine, "a depth is below zero or not finite")?;
-        let mut surface = Self::lattice(columns_rows, pitch, area, laws);
-        (surface.worn, surface.gain) = (worn, gain);
-        surface.nodes.depth = depth;
-        Ok(surface)
+        self.layout.triangles()
     }
 }

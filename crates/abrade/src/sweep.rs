@@ -96,10 +96,15 @@ impl Swept {
         }
     }
 
-    /// Where the line x + z n crosses the body at the end of the step. Pieces of a clump over
-    /// one column count as one span.
+    /// Where the line x + z n crosses the body at the end of the step, above -`own` [m]. Pieces of
+    /// a clump over one column count as one span.
     #[inline]
-    pub(crate) fn span(&self, x: &Point3<f64>, n: &Vector3<f64>) -> Option<Span> {
+    pub(crate) fn span(&self, x: &Point3<f64>, n: &Vector3<f64>, own: f64) -> Option<Span> {
+        self.whole_span(x, n).filter(|span| span.high > -own)
+    }
+
+    #[inline]
+    fn whole_span(&self, x: &Point3<f64>, n: &Vector3<f64>) -> Option<Span> {
         match (&*self.hulls, &*self.balls) {
             ([_], []) => return self.clip(&self.planes, x, n),
             ([], [ball]) => return ball.chord(x, n),
@@ -131,16 +136,16 @@ impl Swept {
         }
     }
 
-    /// True when the line from `x` down along -n meets the body, grown by `margin` [m], at the
-    /// end of the step.
-    pub(crate) fn meets(&self, x: &Point3<f64>, n: &Vector3<f64>, margin: f64) -> bool {
+    /// True when the line from `x` down along -n, `reach` [m] long, meets the body, grown by
+    /// `margin` [m], at the end of the step.
+    pub(crate) fn meets(&self, x: &Point3<f64>, n: &Vector3<f64>, margin: f64, reach: f64) -> bool {
         let mut start = 0;
         let hulls = self.hulls.iter().any(|&end| {
             let planes = &self.planes[start..end];
             start = end;
-            hull_meets(planes, x, n, margin)
+            hull_meets(planes, x, n, [-(reach + margin), margin], margin)
         });
-        hulls || self.balls.iter().any(|ball| ball.meets(x, n, margin))
+        hulls || self.balls.iter().any(|ball| ball.meets(x, n, margin, reach))
     }
 
     /// The face through which `p` came to lie inside the body during the step, if one did.
@@ -196,8 +201,13 @@ fn clip(
 }
 
 #[inline]
-fn hull_meets(planes: &[MovedPlane], x: &Point3<f64>, n: &Vector3<f64>, margin: f64) -> bool {
-    let (mut low, mut high) = (f64::NEG_INFINITY, margin);
+fn hull_meets(
+    planes: &[MovedPlane],
+    x: &Point3<f64>,
+    n: &Vector3<f64>,
+    [mut low, mut high]: [f64; 2],
+    margin: f64,
+) -> bool {
     for MovedPlane { to: (normal, offset), .. } in planes {
         let slope = normal.dot(n);
         let room = offset + margin - normal.dot(&x.coords);
@@ -238,11 +248,12 @@ fn hull_entry(planes: &[MovedPlane], p: &Point3<f64>, step: f64) -> Option<(f64,
 }
 
 impl MovedBall {
-    fn meets(&self, x: &Point3<f64>, n: &Vector3<f64>, margin: f64) -> bool {
+    fn meets(&self, x: &Point3<f64>, n: &Vector3<f64>, margin: f64, reach: f64) -> bool {
         let to_centre = self.to - x;
         let (along, radius) = (to_centre.dot(n), self.radius + margin);
         let square = radius * radius - (to_centre - n * along).norm_squared();
-        square > 0.0 && along - square.sqrt() < margin
+        let half = square.max(0.0).sqrt();
+        square > 0.0 && along - half < margin && along + half > -(reach + margin)
     }
 
     #[inline]

@@ -57,6 +57,8 @@ pub(crate) struct Trial {
     pub touching: usize,
     pub evaluations: u64,
     pub overlap_change: f64,
+    /// No contact was asked.
+    flight: bool,
 }
 
 /// What columns take from a body in a step.
@@ -193,6 +195,7 @@ impl Integrator {
             touching: 0,
             evaluations: 0,
             overlap_change: 0.0,
+            flight: surfaces.is_empty(),
         };
         let reach = (velocity.norm() + spin.norm() * body.shape.bounding_radius()) * dt;
         for (i, (contact, placed)) in self.contacts.iter_mut().zip(surfaces).enumerate() {
@@ -375,6 +378,9 @@ impl Integrator {
     ) -> (f64, Vector3<f64>) {
         let mut elastic = trial.springs.ledger.elastic;
         let mut push = trial.springs.push;
+        if trial.flight {
+            return (elastic, push);
+        }
         let stored = self.keeps_ledger();
         let pairs = self.contacts.iter_mut().zip(surfaces.iter_mut());
         for (contact, placed) in pairs {

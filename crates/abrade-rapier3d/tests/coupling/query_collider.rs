@@ -54,7 +54,7 @@ fn a_ray_meets_every_node_where_it_is() {
     let shown = rig.sync();
     rig.step();
     let nodes = rig.wear[rig.plate].nodes();
-    let [_, rows] = rig.wear[rig.plate].columns_rows();
+    let [_, rows] = rig.wear[rig.plate].columns_rows().expect("a strip");
     let shift = Vector3::new(1.0, 1.0, 0.0) * BESIDE * rig.wear[rig.plate].pitch();
     // Poses and rays are rounded.
     let rounding = 16.0 * scalar::ROUNDING;

@@ -1,0 +1,70 @@
+//! How the nodes of a surface are laid out: as a lattice, or as the vertices of a mesh.
+
+use std::sync::Arc;
+
+use nalgebra::Point3;
+
+use crate::medial::reaches;
+use crate::nodes::Nodes;
+use crate::solid::Solid;
+
+/// The layout of a surface.
+#[derive(Clone, Debug)]
+pub(crate) enum Layout {
+    /// Columns and rows of a flat strip; node `row` of a column is the column's number times the
+    /// rows, plus `row`; odd columns are shifted by half a pitch.
+    Strip { columns_rows: [usize; 2] },
+    /// The vertices of a closed mesh.
+    Mesh(Arc<Meshed>),
+}
+
+/// The solid that a mesh bounds.
+#[derive(Debug)]
+pub(crate) struct Meshed {
+    pub solid: Solid,
+    /// Per node: how far below it the material is its own [m].
+    pub reach: Vec<f64>,
+}
+
+impl Layout {
+    /// The layout of a mesh with these `nodes`; None when the facets bound no solid.
+    pub(crate) fn mesh(nodes: &Nodes, triangles: &[[u32; 3]]) -> Option<Self> {
+        let solid = Solid::new(&nodes.rest_position, triangles)?;
+        let reach = reaches(nodes, solid.extent());
+        Some(Self::Mesh(Arc::new(Meshed { solid, reach })))
+    }
+
+    /// Triangles between neighbouring nodes.
+    pub(crate) fn triangles(&self) -> Vec<[u32; 3]> {
+        match self {
+            Self::Strip { columns_rows } => strip_triangles(*columns_rows),
+            Self::Mesh(meshed) => meshed.solid.triangles().to_vec(),
+        }
+    }
+}
+
+fn strip_triangles([columns, rows]: [usize; 2]) -> Vec<[u32; 3]> {
+    let mut triangles = Vec::with_capacity(2 * columns * rows);
+    for column in 0..columns.saturating_sub(1) {
+        for row in 0..rows.saturating_sub(1) {
+            let [a, b] = [column * rows + row, (column + 1) * rows + row].map(|i| i as u32);
+            triangles.extend(match column % 2 {
+                0 => [[a, b, a + 1], [b, b + 1, a + 1]],
+                _ => [[a, b, b + 1], [a, b + 1, a + 1]],
+            });
+        }
+    }
+    triangles
+}
+
+/// Undeformed positions about the node nearest the middle, column by column [m].
+pub(crate) fn strip_positions([columns, rows]: [usize; 2], pitch: f64) -> Vec<Point3<f64>> {
+    let across = pitch * 0.75f64.sqrt();
+    let site = |column: usize, row: usize| {
+        let shift = 0.5 * (column % 2) as f64;
+        Point3::new(column as f64 * across, (row as f64 + shift) * pitch, 0.0)
+    };
+    let middle = site((columns - 1) / 2, (rows - 1) / 2).coords;
+    let rows_of = |column| (0..rows).map(move |row| site(column, row) - middle);
+    (0..columns).flat_map(rows_of).collect()
+}

@@ -1,0 +1,98 @@
+//! A surface as bytes hold it: its lattice or its mesh is laid out anew.
+
+use nalgebra::Point3;
+
+use crate::mesh::TriangleMesh;
+use crate::nodes::Nodes;
+use crate::state::{Fault, finite, not_negative, positive, require};
+use crate::surface::{Surface, SurfaceLaws, Worn};
+
+/// Where the nodes lie.
+#[derive(serde::Serialize, serde::Deserialize)]
+enum LayoutState {
+    Strip { columns_rows: [usize; 2], area: f64 },
+    Mesh { vertices: Vec<Point3<f64>>, triangles: Vec<[u32; 3]> },
+}
+
+/// What is written of a surface.
+#[derive(serde::Serialize, serde::Deserialize)]
+pub(crate) struct SurfaceState {
+    layout: LayoutState,
+    pitch: f64,
+    laws: SurfaceLaws,
+    worn: Worn,
+    gain: Worn,
+    depth: Vec<f64>,
+}
+
+impl From<Surface> for SurfaceState {
+    fn from(surface: Surface) -> Self {
+        let layout = match (surface.columns_rows(), surface.facets()) {
+            (Some(columns_rows), _) => {
+                LayoutState::Strip { columns_rows, area: surface.nodes.rest_area[0] }
+            }
+            (None, facets) => LayoutState::Mesh {
+                vertices: surface.nodes.rest_position.clone(),
+                triangles: facets.unwrap_or_default().to_vec(),
+            },
+        };
+        Self {
+            layout,
+            pitch: surface.pitch(),
+            laws: surface.laws,
+            worn: surface.worn,
+            gain: surface.gain,
+            depth: surface.nodes.depth,
+        }
+    }
+}
+
+impl TryFrom<SurfaceState> for Surface {
+    type Error = Fault;
+
+    fn try_from(state: SurfaceState) -> Result<Self, Fault> {
+        let SurfaceState { layout, pitch, laws, worn, gain, depth } = state;
+        require(positive(pitch), "the pitch of a surface is out of range")?;
+        require(laws.check().is_empty(), "the laws of a surface are out of range")?;
+        let whole = |w: &Worn| finite(&[w.normal, w.lateral, w.chip, w.removed]);
+        let fine = whole(&worn) && whole(&gain) && depth.iter().all(|&depth| not_negative(depth));
+        require(fine, "a depth is below zero or not finite")?;
+        let mut surface = match layout {
+            LayoutState::Strip { columns_rows, area } => {
+                strip(columns_rows, pitch, area, depth.len(), laws)?
+            }
+            LayoutState::Mesh { vertices, triangles } => mesh(vertices, triangles, pitch, laws)?,
+        };
+        require(surface.nodes.len() == depth.len(), "a surface lacks nodes")?;
+        (surface.worn, surface.gain) = (worn, gain);
+        surface.nodes.depth = depth;
+        Ok(surface)
+    }
+}
+
+fn strip(
+    columns_rows: [usize; 2],
+    pitch: f64,
+    area: f64,
+    nodes: usize,
+    laws: SurfaceLaws,
+) -> Result<Surface, Fault> {
+    let [columns, rows] = columns_rows;
+    let count = columns.checked_mul(rows);
+    require(count == Some(nodes) && count != Some(0), "a surface lacks nodes")?;
+    let extent = pitch * columns.max(rows) as f64;
+    require(positive(area) && extent.is_finite(), "the extent of a surface is out of range")?;
+    Ok(Surface::lattice(columns_rows, pitch, area, laws))
+}
+
+fn mesh(
+    vertices: Vec<Point3<f64>>,
+    triangles: Vec<[u32; 3]>,
+    pitch: f64,
+    laws: SurfaceLaws,
+) -> Result<Surface, Fault> {
+    let fault = Fault("the mesh of a surface bounds no solid");
+    let mesh = TriangleMesh::new(vertices, triangles).map_err(|_| fault)?;
+    let nodes: Nodes = mesh.nodes();
+    Surface::closed(nodes, mesh.triangles(), pitch, laws).ok_or(fault)
+}
