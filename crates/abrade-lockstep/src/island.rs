@@ -276,9 +276,9 @@ impl Island {
     /// Lets every surface follow, or none.
     fn follow(&mut self, surfaces: &mut [Placed<'_>], h: f64) -> Result<Met, PhysicsError> {
         if self.wearers.iter().any(|wearer| self.is_struck(wearer, h)) {
-            self.wearers.iter_mut().for_each(|w| w.calm.wake());
+            self.wearers.iter_mut().for_each(|wearer| wearer.wake(surfaces));
             self.mark();
-            return Ok(Met::TooLong(0.5 * h));
+            return Ok(Met::TooLong(self.length(surfaces).min(0.5 * h)));
         }
         let world = &self.world;
         let end = |wearer: &Wearer| world.bodies.get(wearer.handle).map(state);

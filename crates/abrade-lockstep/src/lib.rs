@@ -12,7 +12,8 @@
 //! 4. follow: every wear surface follows its bodies; a step that was too long for the springs it
 //!    met is taken back and tried shorter;
 //! 5. calm: where the island may rest, a body that only rings on its springs is put on a contact
-//!    of Rapier's, so that the rest of the time passes in long steps.
+//!    of Rapier's, so that the rest of the time passes in long steps. One that is struck there goes
+//!    back to springs, which are not loaded by what it has moved meanwhile.
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 

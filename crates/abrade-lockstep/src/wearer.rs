@@ -8,6 +8,10 @@ use rapier::dynamics::RigidBodyHandle;
 
 use crate::calm::{Calm, normal_speed};
 
+/// Share of the yield overlap by which a body that rested may have moved and still be held by the
+/// springs that it had before.
+const IN_PLACE: f64 = 1e-2;
+
 /// A body that wears the island's surfaces.
 pub struct Wearer {
     /// The body in the island's world.
@@ -28,6 +32,8 @@ pub struct Wearer {
     pub(crate) uses: Vec<usize>,
     /// By how much each of them is lowered for this body, which an engine left inside it [m].
     pub(crate) lifts: Vec<f64>,
+    /// Where its springs have last followed it to.
+    left: State,
     worn: Vec<f64>,
     /// Volumes displaced before a step [m3].
     mark: Vec<f64>,
@@ -66,6 +72,7 @@ impl Wearer {
     ) -> Self {
         Self {
             handle,
+            left: body.state,
             body,
             loads,
             bears: 0.0,
@@ -135,6 +142,27 @@ impl Wearer {
         self.contact_time
     }
 
+    /// Back to springs from a rest on contacts of Rapier's, which its springs did not follow. Where
+    /// the body has moved they would push it back with energy that nobody gave: it begins anew,
+    /// outside of surfaces that are lowered for it to where it is.
+    pub(crate) fn wake(&mut self, surfaces: &mut [Placed<'_>]) {
+        if self.calm.rests && !self.is_in_place() {
+            self.wear(surfaces, |contact, _, surfaces| contact.let_go(surfaces));
+            self.lifts.fill(0.0);
+            self.lifts =
+                self.lowered(surfaces, |contact, body, surfaces| contact.overlaps(body, surfaces));
+            self.left = self.body.state;
+        }
+        self.calm.wake();
+    }
+
+    /// True while the body is where its springs left it.
+    fn is_in_place(&self) -> bool {
+        let (left, here) = (&self.left, &self.body.state);
+        let turn = left.rotation.angle_to(&here.rotation) * self.body.shape.bounding_radius();
+        (here.position - left.position).norm() + turn <= IN_PLACE * self.contact.yield_overlap()
+    }
+
     /// Runs `act` with its surfaces where they lie for it.
     fn lowered<R>(
         &mut self,
@@ -143,6 +171,25 @@ impl Wearer {
     ) -> R {
         let mut own = own(surfaces, &self.uses, &self.lifts);
         act(&mut self.contact, &mut self.body, &mut own)
+    }
+
+    /// As [`Wearer::lowered`], counting what is displaced.
+    fn wear<R>(
+        &mut self,
+        surfaces: &mut [Placed<'_>],
+        act: impl FnOnce(&mut Carried, &mut Body, &mut [Placed<'_>]) -> R,
+    ) -> R {
+        for (mark, &at) in self.mark.iter_mut().zip(&self.uses) {
+            *mark = surfaces[at].surface.worn().displaced();
+        }
+        let done = self.lowered(surfaces, act);
+        self.wears = false;
+        for ((worn, mark), &at) in self.worn.iter_mut().zip(&self.mark).zip(&self.uses) {
+            let gained = surfaces[at].surface.worn().displaced() - mark;
+            *worn += gained;
+            self.wears |= gained > 0.0;
+        }
+        done
     }
 
     /// Bound of the speed at which its points move along the normals of its surfaces [m/s].
@@ -185,16 +232,8 @@ impl Wearer {
         surfaces: &mut [Placed<'_>],
         dt: f64,
     ) -> Result<(), PhysicsError> {
-        for (mark, &at) in self.mark.iter_mut().zip(&self.uses) {
-            *mark = surfaces[at].surface.worn().displaced();
-        }
-        self.lowered(surfaces, |contact, body, surfaces| contact.follow(body, surfaces))?;
-        self.wears = false;
-        for ((worn, mark), &at) in self.worn.iter_mut().zip(&self.mark).zip(&self.uses) {
-            let gained = surfaces[at].surface.worn().displaced() - mark;
-            *worn += gained;
-            self.wears |= gained > 0.0;
-        }
+        self.wear(surfaces, |contact, body, surfaces| contact.follow(body, surfaces))?;
+        self.left = self.body.state;
         self.impulse += self.grip.force * dt;
         if self.contact.in_contact() {
             self.contact_time += dt;

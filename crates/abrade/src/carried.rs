@@ -38,14 +38,23 @@ pub struct Carried {
     owed: [Vector3<f64>; 2],
     /// What columns did in the last step.
     swept: Grip,
-    /// What columns will have done in the step ahead, and the energy their springs are short of [J].
     #[cfg_attr(feature = "state", serde(skip))]
-    foreseen: (Grip, f64),
+    foreseen: Foreseen,
     /// Length of the last step, if it ended in contact [s].
     last: f64,
     evaluations: u64,
     /// 1 / omega of the last step in contact [s].
     period_over_tau: f64,
+}
+
+/// What columns will have done in the step ahead.
+#[derive(Clone, Copy, Debug, Default)]
+struct Foreseen {
+    grip: Grip,
+    /// Energy that their springs are short of [J].
+    short: f64,
+    /// Length of a step that they should be asked about instead [s].
+    shorter: Option<f64>,
 }
 
 /// What the surfaces do to a carried body.
@@ -160,7 +169,9 @@ impl Carried {
         let mut state = body.state;
         let charge = self.integrator.charge(&trial.toll, 0.0, &mut state);
         let swept = Grip { force: charge.impulse / dt, torque: charge.torque / dt };
-        self.foreseen = (swept, charge.short);
+        let allowed = self.integrator.eta / self.integrator.omega(&trial);
+        let shorter = rejected(&trial, dt, allowed);
+        self.foreseen = Foreseen { grip: swept, short: charge.short, shorter };
         Grip { force: springs.force + swept.force, torque: springs.torque + swept.torque }
     }
 
@@ -176,6 +187,10 @@ impl Carried {
         dt: f64,
     ) -> Result<Met, PhysicsError> {
         self.integrator.fits_at_rest(surfaces)?;
+        // A force from too long a step may have thrown the body to where it touches nothing.
+        if let Some(shorter) = self.foreseen.shorter {
+            return Ok(Met::TooLong(shorter));
+        }
         let velocity = (end.position - body.state.position) / dt;
         let spin = (end.rotation * body.state.rotation.inverse()).scaled_axis() / dt;
         let course = Course { velocity, spin, dt };
@@ -214,7 +229,7 @@ impl Carried {
         };
         let before = self.integrator.next_dt;
         self.owed = [damping.impulse, damping.torque];
-        (self.swept, self.integrator.short) = self.foreseen;
+        (self.swept, self.integrator.short) = (self.foreseen.grip, self.foreseen.short);
         self.integrator.book_damping(damping.dissipated);
         self.last = if trial.touching > 0 { dt } else { 0.0 };
         if trial.touching > 0 {
@@ -227,6 +242,24 @@ impl Carried {
             self.integrator.end_contact(surfaces);
         }
         surfaces.iter().try_for_each(|placed| engulfed(placed, &body.state))
+    }
+
+    /// Lets go of the surfaces in the middle of a contact: what the springs hold is lost, and
+    /// overhangs break off.
+    pub fn let_go(&mut self, surfaces: &mut [Placed<'_>]) {
+        for (contact, placed) in self.integrator.contacts.iter_mut().zip(surfaces) {
+            contact.let_go(placed.surface);
+        }
+        self.integrator.lose_springs();
+        self.owed = Default::default();
+        self.swept = Grip::default();
+        self.last = 0.0;
+    }
+
+    /// Overlap at which the first spring yields [m]; zero without springs.
+    pub fn yield_overlap(&self) -> f64 {
+        let least = self.integrator.yield_overlap();
+        if least.is_finite() { least } else { 0.0 }
     }
 
     /// True while a node carries force.
@@ -270,5 +303,45 @@ impl Carried {
         let counted = self.evaluations < u64::MAX / 2;
         require(times && owed && counted, "a carried body is out of range")?;
         Ok(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{HexStrip, Hull, Material, Piece, Shape, SurfaceLaws, cuboid_vertices};
+    use nalgebra::{Isometry3, Point3};
+
+    /// Fails for columns whose force over too long a step throws the body to where it touches
+    /// nothing, which fits.
+    #[test]
+    fn a_step_that_columns_cannot_foresee_is_too_long() {
+        let material = Material {
+            hardness: 6.6e9,
+            shear_ratio: 0.25,
+            young: Some(200e9),
+            poisson: 0.3,
+            friction: 0.0,
+        };
+        let strip = HexStrip { length: 10e-3, width: 10e-3, pitch: 0.5e-3, rest_area: None };
+        let mut surface = Surface::hex_strip(strip, SurfaceLaws::of(material)).expect("a plate");
+        let (hull, inertia, _) =
+            Hull::solid(&cuboid_vertices(&Vector3::repeat(2e-3)), 300.0).expect("a cube");
+        let shape = Shape::union(vec![Piece::Hull(hull)]).expect("a cube");
+        let mut state = State::at(Point3::new(0.0, 0.0, 2e-3 + 1e-9));
+        state.velocity.z = -1.0;
+        let body = Body { shape, inertia, state, rotation_locked: false };
+        let settings = EncounterSettings::default();
+        let mut carried = Carried::new(&body, [&surface], settings).expect("columns");
+        let placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+        let long = 1e-5;
+        let force = carried.grip(&body, &placed, long).force;
+        let mut end = body.state;
+        end.velocity += force * (long / body.inertia.mass);
+        end.position += end.velocity * long;
+        assert!(end.position.z > body.state.position.z, "the force throws the body off");
+        let met = carried.meet(&body, &placed, &end, long).expect("a finite state");
+        let Met::TooLong(shorter) = met else { panic!("it fits") };
+        assert!(shorter < 0.1 * long, "{shorter:e}");
     }
 }

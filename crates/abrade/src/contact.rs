@@ -139,6 +139,14 @@ impl Contact {
         }
     }
 
+    /// Lets go of the surface, wherever the body is.
+    pub(crate) fn let_go(&mut self, surface: &mut Surface) {
+        match self {
+            Self::Springs(patch) => patch.let_go(),
+            Self::Columns(columns) => columns.end_contact(surface),
+        }
+    }
+
     /// End of a contact.
     pub(crate) fn end(&mut self, surface: &mut Surface) {
         if let Self::Columns(columns) = self {

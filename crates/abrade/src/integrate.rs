@@ -224,8 +224,7 @@ impl Integrator {
             let acceleration = acceleration(placed, body, loads);
             free = free.min(free_time(contact, placed.surface, body, &local, acceleration));
         }
-        let yield_overlap = self.contacts.iter().map(Contact::yield_overlap);
-        let scale = FLOOR * yield_overlap.fold(f64::INFINITY, f64::min);
+        let scale = FLOOR * self.yield_overlap();
         let time = |placed: &Placed<'_>| {
             time_to_close(scale, top_speed(placed, body), acceleration(placed, body, loads))
         };
@@ -236,6 +235,11 @@ impl Integrator {
         } else {
             (floor, false)
         }
+    }
+
+    /// The least yield overlap of its contacts [m]; infinite without springs.
+    pub(crate) fn yield_overlap(&self) -> f64 {
+        self.contacts.iter().map(Contact::yield_overlap).fold(f64::INFINITY, f64::min)
     }
 
     /// Longest step of the swept rule: |v| dt <= 0.1 pitch, and 0.4 yield overlaps with springs.
@@ -349,6 +353,13 @@ impl Integrator {
             contact.cover(placed.surface, &body.shape, &local, 0.0);
             contact.deepest(placed.surface, &body.shape, &local)
         })
+    }
+
+    /// Takes note that its contacts have let go: the energy of their springs is lost.
+    pub(crate) fn lose_springs(&mut self) {
+        self.pull = Pull::default();
+        (self.touching, self.touched) = (false, false);
+        self.ledger.history += std::mem::take(&mut self.ledger.elastic);
     }
 
     /// Books what dashpots of a led body dissipated [J].

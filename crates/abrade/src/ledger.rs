@@ -17,7 +17,7 @@ pub struct Ledger {
     /// Done by gravity, loads and drives.
     pub external_work: f64,
     /// Change that `HertzNodes` makes because its tangential history is not conservative, and
-    /// elastic energy of contacts that `swept` lost sideways.
+    /// elastic energy of contacts that `swept` lost sideways, or that were let go.
     pub history: f64,
     /// Change of the kinetic energy since the ledger was opened.
     pub kinetic_change: f64,

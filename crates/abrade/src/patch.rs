@@ -312,6 +312,12 @@ impl Patch {
         self.reaction.normal_load += normal_load;
     }
 
+    /// Lets every spring go.
+    pub(crate) fn let_go(&mut self) {
+        self.old.fill(Spring::default());
+        self.candidates.forget();
+    }
+
     /// Makes the last trial the state: nodes sink, springs step on.
     pub(crate) fn commit(&mut self, surface: &mut Surface) {
         for (slot, spring) in self.candidates.slots.iter_mut().zip(&self.new) {
