@@ -232,7 +232,7 @@ fn a_body_struck_at_rest_gets_no_energy_from_where_it_has_come_to() {
     world_.colliders[proxy].set_shape(SharedShape::cuboid(0.03, 0.006, 0.01));
     let handles = [0, 1].map(|i| insert(&mut world_, &bodies[i]));
     let mut surface = plate(0.5e-3);
-    let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+    let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
     let settings = EncounterSettings { accuracy: 1e-2, ..EncounterSettings::default() };
     let [cube, _] = bodies;
     let cube = Wearer::new(handles[0], cube, Loads::default(), &mut placed, vec![0], settings);

@@ -333,7 +333,7 @@ mod tests {
         let body = Body { shape, inertia, state, rotation_locked: false };
         let settings = EncounterSettings::default();
         let mut carried = Carried::new(&body, [&surface], settings).expect("columns");
-        let placed = [Placed { surface: &mut surface, pose: Isometry3::identity() }];
+        let placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
         let long = 1e-5;
         let force = carried.grip(&body, &placed, long).force;
         let mut end = body.state;
