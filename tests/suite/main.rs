@@ -11,6 +11,7 @@ mod paper;
 mod restitution;
 mod rig;
 mod selfsimilar;
+mod shell;
 mod sphere;
 mod table;
 mod theory;

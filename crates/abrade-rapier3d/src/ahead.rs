@@ -53,8 +53,8 @@ impl Ahead {
         let ids = &start.surfaces;
         let leaf = |id: &SurfaceId| Surface::leaf(&scene.surfaces[id.0].surface);
         let mut leaves: Vec<Surface> = ids.iter().map(leaf).collect();
-        let poses = micro::poses(ids, scene.lies, &start.frame);
-        let mut placed = micro::placed(leaves.iter_mut(), &poses);
+        let seats = micro::seats(ids, scene.lies, &start.frame);
+        let mut placed = micro::placed(leaves.iter_mut(), &seats);
         let trace = Trace::new(start.state.position, errand.pull(&body), scene.dt);
         let (observer, frame) = (&mut (), start.frame);
         let surfaces = ids.clone();

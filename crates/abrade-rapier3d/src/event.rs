@@ -86,8 +86,8 @@ pub enum Refusal {
         /// The first such collider.
         collider: ColliderHandle,
     },
-    /// The surface moves, or may be moved by the contact.
-    #[error("the wear surface moves")]
+    /// The surface is on a dynamic body, which the contact would move.
+    #[error("the wear surface is on a dynamic body")]
     SurfaceMoves,
     /// A collider of the body is neither a ball, a cuboid, a convex polyhedron nor a compound of
     /// those.

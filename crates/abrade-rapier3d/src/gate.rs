@@ -2,18 +2,18 @@
 //! their own: Micro without this gate is catastrophic, because nothing else pushes back.
 
 use abrade::{Loads, State};
-use nalgebra::{Isometry3, Vector3};
-use rapier::dynamics::{LockedAxes, RigidBody, RigidBodyHandle};
-use rapier::geometry::ColliderSet;
+use nalgebra::{Isometry3, Point3, Vector3};
+use rapier::dynamics::{LockedAxes, RigidBody, RigidBodyHandle, RigidBodySet, RigidBodyType};
+use rapier::geometry::{Collider, ColliderSet};
 
 use crate::event::Refusal;
 use crate::obstacle::{Obstacles, interact};
 use crate::path::Extent;
-use crate::scalar;
 use crate::surface::{SurfaceId, WornCollider};
 use crate::track::Track;
 use crate::tracked::Tracked;
 use crate::view::WorldView;
+use crate::{scalar, shadow};
 
 /// Share of its radius by which a body is taken for larger than it is.
 const MARGIN: f64 = 1e-3;
@@ -21,13 +21,29 @@ const MARGIN: f64 = 1e-3;
 /// A surface where it lies in this step.
 pub(crate) struct Lie {
     pub id: SurfaceId,
-    /// Its frame in the world.
+    /// Its frame in the world, at the beginning of the step.
     pub pose: Isometry3<f64>,
-    /// Box around its nodes, in the world.
+    /// Box around its nodes in the step, in the world.
     pub extent: Extent,
+    /// What leads it, if it moves in the step.
+    pub lead: Option<Lead>,
+}
+
+/// The motion of a surface that a kinematic body leads through a step.
+#[derive(Clone, Copy)]
+pub(crate) struct Lead {
+    /// That of the body, in the world.
+    pub state: State,
+    /// Bound of the speed of a node [m/s].
+    pub speed: f64,
 }
 
 impl Lie {
+    /// True when something leads it through the step.
+    pub fn moves(&self) -> bool {
+        self.lead.is_some()
+    }
+
     /// Where the surface `id` lies, unless its proxy is gone.
     pub fn find(lies: &[Self], id: SurfaceId) -> Option<&Self> {
         lies.iter().find(|lie| lie.id == id)
@@ -35,7 +51,13 @@ impl Lie {
 }
 
 /// Where the surfaces lie; those whose proxy is gone or disabled are left out.
-pub(crate) fn lie(surfaces: &[WornCollider], colliders: &ColliderSet, lies: &mut Vec<Lie>) {
+pub(crate) fn lie(
+    surfaces: &[WornCollider],
+    bodies: &RigidBodySet,
+    colliders: &ColliderSet,
+    [dt, sight]: [f64; 2],
+    lies: &mut Vec<Lie>,
+) {
     lies.clear();
     for (id, worn) in surfaces.iter().enumerate() {
         let Some(proxy) = colliders.get(worn.proxy).filter(|proxy| proxy.is_enabled()) else {
@@ -43,8 +65,50 @@ pub(crate) fn lie(surfaces: &[WornCollider], colliders: &ColliderSet, lies: &mut
         };
         let pose = worn.pose(proxy);
         let extent = worn.bounds.grown(worn.inflation).placed_by(&pose);
-        lies.push(Lie { id: SurfaceId(id), pose, extent });
+        let lead = lead(proxy, bodies, &extent, dt);
+        let extent = extent.grown(lead.map_or(0.0, |lead| lead.speed * sight));
+        lies.push(Lie { id: SurfaceId(id), pose, extent, lead });
     }
+}
+
+/// How the kinematic body of `proxy`, whose nodes lie in `extent`, moves over `dt` [s].
+fn lead(proxy: &Collider, bodies: &RigidBodySet, extent: &Extent, dt: f64) -> Option<Lead> {
+    let rb = proxy.parent().and_then(|handle| bodies.get(handle))?;
+    if !rb.is_kinematic() {
+        return None;
+    }
+    let mut state = shadow::held(rb);
+    if rb.body_type() == RigidBodyType::KinematicPositionBased {
+        let [from, to] = [rb.position(), rb.next_position()].map(scalar::pose);
+        let com = Point3::from(scalar::vector(rb.local_center_of_mass()));
+        state.velocity = (to * com - from * com) / dt;
+        state.spin = (to.rotation * from.rotation.inverse()).scaled_axis() / dt;
+    }
+    let reach = (nalgebra::center(&extent.low, &extent.high) - state.position).norm()
+        + extent.half().norm();
+    let speed = state.velocity.norm() + state.spin.norm() * reach;
+    (speed > 0.0).then_some(Lead { state, speed })
+}
+
+/// The plane below which a body has met the surface for certain: only flat ones at rest have one.
+pub(crate) fn floor(lie: &Lie, worn: &WornCollider) -> Extent {
+    match worn.surface.is_flat() && lie.lead.is_none() {
+        true => worn.bounds,
+        false => Extent::NO_FLOOR,
+    }
+}
+
+/// True for a surface on which Rapier can hold a body and the resolvers beside Micro know their
+/// way: flat, and at rest.
+pub(crate) fn can_hold(lies: &[Lie], surfaces: &[WornCollider], id: SurfaceId) -> bool {
+    let still = Lie::find(lies, id).is_none_or(|lie| lie.lead.is_none());
+    still && surfaces[id.0].surface.is_flat()
+}
+
+/// Bound of the speed of the surfaces `ids` [m/s].
+pub(crate) fn top_speed(lies: &[Lie], ids: &[SurfaceId]) -> f64 {
+    let leads = ids.iter().filter_map(|id| Lie::find(lies, *id)?.lead);
+    leads.map(|lead| lead.speed).fold(0.0, f64::max)
 }
 
 /// A body's path over a step, before any contact.
@@ -55,6 +119,8 @@ pub(crate) struct Course {
     pub acceleration: Vector3<f64>,
     /// Radius with its margin [m].
     radius: f64,
+    /// Bound of the speed of the surfaces that it may meet [m/s].
+    pub surfaces_speed: f64,
 }
 
 impl Course {
@@ -65,7 +131,8 @@ impl Course {
         let acceleration =
             gravity * scalar::wide(rb.gravity_scale()) + scalar::vector(rb.user_force()) / mass;
         let rounding = scalar::ROUNDING * state.position.coords.norm();
-        Self { state, acceleration, radius: tracked.radius * (1.0 + MARGIN) + rounding }
+        let radius = tracked.radius * (1.0 + MARGIN) + rounding;
+        Self { state, acceleration, radius, surfaces_speed: 0.0 }
     }
 
     /// Radius with its margin [m].
@@ -75,7 +142,7 @@ impl Course {
 
     /// The course of a body of `radius` [m] from `state`, in the world.
     pub fn from_state(state: State, acceleration: Vector3<f64>, radius: f64) -> Self {
-        Self { state, acceleration, radius: radius * (1.0 + MARGIN) }
+        Self { state, acceleration, radius: radius * (1.0 + MARGIN), surfaces_speed: 0.0 }
     }
 
     /// Box around the body over `dt` [s], in the frame that `frame` places.
@@ -85,7 +152,7 @@ impl Course {
 
     fn seen_from(&self, frame: &Isometry3<f64>) -> Self {
         let acceleration = frame.inverse_transform_vector(&self.acceleration);
-        Self { state: self.state.seen_from(frame), acceleration, radius: self.radius }
+        Self { state: self.state.seen_from(frame), acceleration, ..*self }
     }
 
     /// Box around the body from one time to another [s].
@@ -126,10 +193,11 @@ impl Course {
     }
 
     /// Box around wherever the body may be flung over `dt` [s], in `frame`: no contact with a
-    /// surface at rest makes it faster than its energy allows.
+    /// surface makes it faster, as the surface sees it, than its energy allows.
     pub fn reach(&self, frame: &Isometry3<f64>, dt: f64) -> Extent {
         let spin = self.state.spin.norm() * self.radius;
-        let speed = self.state.velocity.norm().hypot(spin) + self.acceleration.norm() * dt;
+        let own = self.state.velocity.norm() + self.surfaces_speed;
+        let speed = own.hypot(spin) + self.surfaces_speed + self.acceleration.norm() * dt;
         let centre = frame.inverse_transform_point(&self.state.position);
         Extent { low: centre, high: centre }.grown(self.radius + speed * dt)
     }
@@ -146,7 +214,8 @@ impl Course {
         let world = self.region(&Isometry3::identity(), dt);
         for lie in lies.iter().filter(|lie| lie.extent.meets(&world)) {
             let worn = &surfaces[lie.id.0];
-            if self.region(&lie.pose, dt).meets(&worn.bounds.grown(worn.inflation)) {
+            let moved = lie.lead.map_or(0.0, |lead| lead.speed * dt);
+            if self.region(&lie.pose, dt).meets(&worn.bounds.grown(worn.inflation + moved)) {
                 near.push(lie.id);
             }
         }
@@ -159,7 +228,7 @@ pub(crate) struct Way<'a> {
     pub rb: &'a RigidBody,
     pub colliders: &'a ColliderSet,
     pub obstacles: &'a Obstacles,
-    /// The surface that the body meets, its frame and the box around its nodes.
+    /// The frame in which the body is carried, and the floor of its first surface.
     pub frame: Isometry3<f64>,
     pub bounds: Extent,
 }
@@ -240,8 +309,8 @@ pub(crate) fn bound(
     if !(locked - rotations).is_empty() || !(locked.is_empty() || locked.contains(rotations)) {
         return Some(Refusal::LockedAxes);
     }
-    let moves = |id: &SurfaceId| surfaces[id.0].moves(world.bodies, world.colliders);
-    near.iter().any(moves).then_some(Refusal::SurfaceMoves)
+    let free = |id: &SurfaceId| surfaces[id.0].is_free(world.bodies, world.colliders);
+    near.iter().any(free).then_some(Refusal::SurfaceMoves)
 }
 
 /// What acts on the body beside the contact, in the frame that `frame` places.

@@ -1,10 +1,12 @@
 //! The Micro resolver: one body carried through a whole step by the core, on its own.
 
-use abrade::{Advance, Body, Changes, Encounter, Loads, PhysicsError, Placed, Surface, Until};
+use abrade::{
+    Advance, Body, Carrier, Changes, Encounter, Loads, PhysicsError, Placed, Surface, Until,
+};
 use nalgebra::{Isometry3, Vector3};
 
 use crate::changed::Changed;
-use crate::gate::{Course, Lie, Way};
+use crate::gate::{Course, Lead, Lie, Way};
 use crate::observer::Relay;
 use crate::surface::{SurfaceId, WornCollider};
 use crate::tracked::Live;
@@ -29,7 +31,7 @@ pub(crate) type Volumes = Vec<(SurfaceId, f64)>;
 impl Live {
     /// A running encounter with the given surfaces.
     pub fn new(encounter: Encounter, surfaces: Vec<SurfaceId>) -> Self {
-        Self { encounter, surfaces }
+        Self { encounter, surfaces, frame: None }
     }
 
     /// Carries `body`, whose state is given in the frame of the first surface. Where changes are
@@ -43,7 +45,7 @@ impl Live {
         relay: &mut Relay<'_>,
         changed: &mut Changed,
     ) -> (Result<Advance, PhysicsError>, Volumes) {
-        let poses = poses(&self.surfaces, lies, &errand.way.frame);
+        let seats = seats(&self.surfaces, lies, &errand.way.frame);
         let mut go = |placed: &mut [Placed<'_>]| match errand.in_parts {
             true => go_in_parts(&mut self.encounter, body, placed, errand, relay),
             false => go(&mut self.encounter, body, placed, errand, errand.dt, relay),
@@ -51,11 +53,11 @@ impl Live {
         if changed.is_noted() {
             let leaf = |id: &SurfaceId| Surface::leaf(&surfaces[id.0].surface);
             let mut leaves: Vec<Surface> = self.surfaces.iter().map(leaf).collect();
-            let result = go(&mut placed(leaves.iter_mut(), &poses));
+            let result = go(&mut placed(leaves.iter_mut(), &seats));
             let changes: Vec<_> = leaves.into_iter().map(Surface::into_changes).collect();
             return (result, apply(&self.surfaces, &changes, surfaces, changed));
         }
-        let result = go(&mut place(surfaces, &self.surfaces, &poses));
+        let result = go(&mut place(surfaces, &self.surfaces, &seats));
         let worn = |id: &SurfaceId| (*id, surfaces[id.0].owned().settle().displaced());
         (result, self.surfaces.iter().map(worn).collect())
     }
@@ -136,32 +138,43 @@ pub(crate) fn apply(
         .collect()
 }
 
-/// Where the surfaces `ids` lie in `frame`, the first one exactly at its origin.
-pub(crate) fn poses(
-    ids: &[SurfaceId],
-    lies: &[Lie],
-    frame: &Isometry3<f64>,
-) -> Vec<Isometry3<f64>> {
-    let pose = |(order, id): (usize, &SurfaceId)| match Lie::find(lies, *id) {
-        Some(lie) if order > 0 => frame.inv_mul(&lie.pose),
-        _ => Isometry3::identity(),
+/// Where a surface lies in the frame of an integration, and what carries it.
+pub(crate) type Seat = (Isometry3<f64>, Option<Carrier>);
+
+/// Where the surfaces `ids` lie in `frame`; one whose own that is, exactly at its origin.
+pub(crate) fn seats(ids: &[SurfaceId], lies: &[Lie], frame: &Isometry3<f64>) -> Vec<Seat> {
+    let seat = |id: &SurfaceId| {
+        let Some(lie) = Lie::find(lies, *id) else { return (Isometry3::identity(), None) };
+        let pose = match lie.pose == *frame {
+            true => Isometry3::identity(),
+            false => frame.inv_mul(&lie.pose),
+        };
+        let carrier = |lead: Lead| Carrier {
+            state: lead.state.seen_from(frame),
+            inertia: None,
+            loads: Loads::default(),
+        };
+        (pose, lie.lead.map(carrier))
     };
-    ids.iter().enumerate().map(pose).collect()
+    ids.iter().map(seat).collect()
 }
 
-/// The surfaces at their poses.
+/// The surfaces on their seats.
 pub(crate) fn placed<'a>(
     surfaces: impl Iterator<Item = &'a mut Surface>,
-    poses: &[Isometry3<f64>],
+    seats: &[Seat],
 ) -> Vec<Placed<'a>> {
-    surfaces.zip(poses).map(|(surface, pose)| Placed::at_rest(surface, *pose)).collect()
+    surfaces
+        .zip(seats)
+        .map(|(surface, &(pose, carrier))| Placed { surface, pose, carrier })
+        .collect()
 }
 
-/// The surfaces `ids` themselves at their poses, in that order, to be worn.
+/// The surfaces `ids` themselves on their seats, in that order, to be worn.
 pub(crate) fn place<'a>(
     surfaces: &'a mut [WornCollider],
     ids: &[SurfaceId],
-    poses: &[Isometry3<f64>],
+    seats: &[Seat],
 ) -> Vec<Placed<'a>> {
     let mut owned: Vec<(usize, &mut Surface)> = Vec::with_capacity(ids.len());
     for (index, worn) in surfaces.iter_mut().enumerate() {
@@ -172,5 +185,5 @@ pub(crate) fn place<'a>(
         }
     }
     owned.sort_by_key(|(order, _)| *order);
-    placed(owned.into_iter().map(|(_, surface)| surface), poses)
+    placed(owned.into_iter().map(|(_, surface)| surface), seats)
 }

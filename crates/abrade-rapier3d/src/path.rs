@@ -10,6 +10,12 @@ pub(crate) struct Extent {
 }
 
 impl Extent {
+    /// A floor that nothing is over.
+    pub const NO_FLOOR: Self = Self {
+        low: Point3::new(f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY),
+        high: Point3::new(f64::NEG_INFINITY, f64::NEG_INFINITY, f64::INFINITY),
+    };
+
     /// Around the path of a point that starts at `from` with `velocity` [m/s] and is accelerated
     /// [m/s2] for `time` [s]. The turning point of the parabola lies within the margin.
     pub fn of_path(

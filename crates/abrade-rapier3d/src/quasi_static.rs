@@ -98,7 +98,7 @@ impl Pressing {
         }
         let Some(lie) = Lie::find(lies, self.surface) else { return Ok(None) };
         let frame = lie.pose;
-        let mut placed = place(surfaces, &[self.surface], &[Isometry3::identity()]);
+        let mut placed = place(surfaces, &[self.surface], &[(Isometry3::identity(), None)]);
         let trace = Trace::new(end.position, Vector3::zeros(), dt);
         let ids = vec![self.surface];
         let mut relay = Relay { observer, body: handle, frame, surfaces: ids, began: 0.0, trace };
@@ -119,7 +119,7 @@ impl Pressing {
 
     /// Ends the contact: overhangs break off.
     pub fn end(&mut self, surfaces: &mut [WornCollider]) -> abrade::Ledger {
-        let mut placed = place(surfaces, &[self.surface], &[Isometry3::identity()]);
+        let mut placed = place(surfaces, &[self.surface], &[(Isometry3::identity(), None)]);
         self.pressed.end(&mut placed);
         *self.pressed.ledger()
     }

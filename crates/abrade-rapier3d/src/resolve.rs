@@ -9,6 +9,7 @@ use crate::ahead::Ahead;
 use crate::booking::Booking;
 use crate::error::WearError;
 use crate::event::{Refusal, WearEvent};
+use crate::gate;
 use crate::micro;
 use crate::observer::{Relay, WearObserver};
 use crate::resolver::Resolve;
@@ -79,7 +80,9 @@ impl WearWorld {
         reason: Refusal,
         world: &WorldView<'_>,
     ) {
-        match self.settings.resolve == Resolve::Micro || reason.is_final() {
+        let near = &Tracked::slot(&mut self.bodies, body).near;
+        let may_hold = near.iter().all(|id| gate::can_hold(&self.lies, &self.surfaces, *id));
+        match self.settings.resolve == Resolve::Micro || reason.is_final() || !may_hold {
             true => self.refuse(body, surface, reason),
             false => self.hold(body, reason, world),
         }
@@ -144,9 +147,11 @@ impl WearWorld {
             let encounter = scene.encounter(&start, tracked)?;
             tracked.live = Some(Live::new(encounter, start.surfaces.clone()));
         }
+        let moves = start.moves;
         let Known::Ready(body) = &mut tracked.known else { return Ok(()) };
         let Some(live) = &mut tracked.live else { return Ok(()) };
         let (frame, course) = (start.frame, start.course);
+        live.frame = moves.then_some(frame).or(live.frame);
         let (advance, worn, track) = match how {
             How::Done(ahead) => {
                 let Ahead { end, encounter, advance, track, changes, .. } = *ahead;

@@ -5,7 +5,7 @@ use nalgebra::Isometry3;
 use rapier::dynamics::RigidBody;
 
 use crate::approach::{Strike, strike_speed};
-use crate::gate::{Course, Lie};
+use crate::gate::{self, Course, Lie};
 use crate::quasi_static::holds;
 use crate::scalar;
 use crate::start::Scene;
@@ -21,7 +21,8 @@ impl Scene<'_> {
     /// True for a body that comes down on its surfaces no faster than what pulls it there makes it
     /// in a step: it would be back on them within the step.
     pub fn rests(&self, rb: &RigidBody, tracked: &Tracked) -> bool {
-        if tracked.is_in_blow() {
+        let can_hold = |id: &SurfaceId| gate::can_hold(self.lies, self.surfaces, *id);
+        if tracked.is_in_blow() || !tracked.near.iter().all(can_hold) {
             return false;
         }
         let course = Course::of(rb, tracked, &scalar::vector(self.world.gravity));

@@ -48,6 +48,8 @@ pub(crate) struct Start {
     pub course: Course,
     /// An encounter has to begin.
     pub is_new: bool,
+    /// A surface moves in the step.
+    pub moves: bool,
 }
 
 /// How a body is carried through the step.
@@ -97,11 +99,17 @@ impl Scene<'_> {
         let surfaces = known.map_or(&tracked.near, |live| &live.surfaces).clone();
         let Some(&anchor) = surfaces.first() else { return Ok(None) };
         let Some(lie) = Lie::find(self.lies, anchor) else { return Ok(None) };
-        let (frame, bounds) = (lie.pose, self.surfaces[anchor.0].bounds);
+        let bounds = gate::floor(lie, &self.surfaces[anchor.0]);
+        // Led surfaces move away from the frame in which their encounter began.
+        let kept = known.and_then(|live| live.frame);
+        let moves = surfaces.iter().any(|id| Lie::find(self.lies, *id).is_some_and(Lie::moves));
+        let frame = kept.unwrap_or(lie.pose);
         let mut course = Course::of(rb, tracked, &scalar::vector(self.world.gravity));
+        course.surfaces_speed = gate::top_speed(self.lies, &surfaces);
         let mut state = shadow::read(rb, tracked.shadow.as_ref(), &frame);
         let Known::Ready(known) = &mut tracked.known else { return Ok(None) };
-        if is_new && !tracked.is_placed {
+        let can_hold = |id: &SurfaceId| gate::can_hold(self.lies, self.surfaces, *id);
+        if is_new && !tracked.is_placed && surfaces.iter().all(can_hold) {
             // Rapier's contacts let bodies sink in.
             let depth = afloat::depth(known, &state, &self.surfaces[anchor.0]);
             let lift = if depth < LIFT * tracked.radius { depth } else { 0.0 };
@@ -109,7 +117,7 @@ impl Scene<'_> {
             course.state.position += frame * Vector3::z() * lift;
         }
         known.state = state;
-        Ok(Some(Start { body, surfaces, frame, bounds, state, course, is_new }))
+        Ok(Some(Start { body, surfaces, frame, bounds, state, course, is_new, moves }))
     }
 
     /// The encounter that the body has or begins.

@@ -200,7 +200,8 @@ impl WearWorld {
 
     /// Finds the bodies near a surface; ends encounters of those that are not.
     fn choose(&mut self, world: &mut WorldView<'_>, gravity: &Vector3<f64>) {
-        gate::lie(&self.surfaces, world.colliders, &mut self.lies);
+        let times = [self.current.dt, self.current.sight];
+        gate::lie(&self.surfaces, world.bodies, world.colliders, times, &mut self.lies);
         let mut picked = std::mem::take(&mut self.picked);
         let span = Span { dt: self.current.sight, gravity: gravity.norm() };
         self.glances.pick(world.bodies, world.colliders, &self.lies, span, &mut picked);
@@ -242,7 +243,8 @@ impl WearWorld {
         let course = Course::of(rb, tracked, gravity);
         course.near(&self.lies, surfaces, self.current.sight, &mut tracked.near);
         tracked.near.retain(|id| gate::feels(rb, &surfaces[id.0], colliders));
-        if !tracked.near.is_empty() && tracked.derive(rb, colliders).is_ok() {
+        let may_hold = tracked.near.iter().all(|id| gate::can_hold(&self.lies, surfaces, *id));
+        if may_hold && !tracked.near.is_empty() && tracked.derive(rb, colliders).is_ok() {
             self.sleepers.push(handle);
         }
     }
@@ -258,9 +260,10 @@ impl WearWorld {
         let (surfaces, dt) = (&self.surfaces, self.current.dt);
         let tracked = Tracked::slot(&mut self.bodies, handle);
         let lost = tracked.drop_lost_shadow(rb);
-        let course = Course::of(rb, tracked, gravity);
+        let mut course = Course::of(rb, tracked, gravity);
         course.near(&self.lies, surfaces, self.current.sight, &mut tracked.near);
         tracked.near.retain(|id| gate::feels(rb, &surfaces[id.0], colliders));
+        course.surfaces_speed = gate::top_speed(&self.lies, &tracked.near);
         if lost {
             self.closed += tracked.end(&mut self.events);
         }
@@ -268,7 +271,7 @@ impl WearWorld {
             return tracked.leave(&mut self.surfaces, &mut self.closed, &mut self.events);
         };
         let Some(lie) = Lie::find(&self.lies, first) else { return };
-        let track = course.track_before(&lie.pose, &surfaces[first.0].bounds, dt);
+        let track = course.track_before(&lie.pose, &gate::floor(lie, &surfaces[first.0]), dt);
         tracked.course = Some(Box::new(track.placed_by(&lie.pose)));
         let reach = course.reach(&Isometry3::identity(), dt);
         let reach = self.current.reach.map_or(reach, |others| others.joined(&reach));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use abrade::{ElasticLaw, Surface};
 use nalgebra::{Isometry3, Point3};
-use rapier::dynamics::RigidBodySet;
+use rapier::dynamics::{RigidBody, RigidBodySet};
 use rapier::geometry::{Collider, ColliderHandle, ColliderSet};
 use rapier::math::Pose;
 
@@ -66,11 +66,10 @@ impl WornCollider {
         }
     }
 
-    /// True when the proxy's body moves, or a contact could move it.
-    pub fn moves(&self, bodies: &RigidBodySet, colliders: &ColliderSet) -> bool {
+    /// True when a contact could move the proxy's body.
+    pub fn is_free(&self, bodies: &RigidBodySet, colliders: &ColliderSet) -> bool {
         let parent = colliders.get(self.proxy).and_then(Collider::parent);
-        let Some(body) = parent.and_then(|handle| bodies.get(handle)) else { return false };
-        body.is_dynamic() || body.is_moving() || body.next_position() != body.position()
+        parent.and_then(|handle| bodies.get(handle)).is_some_and(RigidBody::is_dynamic)
     }
 
     /// The surface, to be worn.

@@ -77,6 +77,8 @@ pub(crate) struct Live {
     pub encounter: Encounter,
     /// The surfaces it was made with, in order.
     pub surfaces: Vec<SurfaceId>,
+    /// The frame that it goes on in, once a surface of it has moved.
+    pub frame: Option<Isometry3<f64>>,
 }
 
 impl Tracked {

@@ -18,7 +18,7 @@ use crate::nodes::Nodes;
 const BALLS: usize = 60;
 /// Share of the radius by which a node must lie inside for the ball to shrink. On a round body all
 /// nodes are as near, and a search for the nearest would look at all.
-const INSIDE: f64 = 0.01;
+const INSIDE: f64 = 0.05;
 /// Cosine of the angle between normals below which two nodes lie on one smooth part: the facets of
 /// a curved part must not make its balls small.
 const SAME: f64 = 0.866;

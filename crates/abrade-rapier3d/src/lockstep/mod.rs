@@ -91,12 +91,12 @@ impl WearWorld {
         let settings = self.settings.encounter();
         let identity = Isometry3::identity();
         let lies = &self.lies;
-        let pose = |id: &SurfaceId| Lie::find(lies, *id).map(|lie| lie.pose);
-        let poses: Vec<_> = ids.iter().filter_map(pose).collect();
+        let seat = |id: &SurfaceId| Lie::find(lies, *id).map(|lie| (lie.pose, None));
+        let seats: Vec<_> = ids.iter().filter_map(seat).collect();
         // Worn by way of leaves: nothing is, if the island comes to nothing.
         let leaf = |id: &SurfaceId| Surface::leaf(&self.surfaces[id.0].surface);
         let mut leaves: Vec<Surface> = ids.iter().map(leaf).collect();
-        let mut placed = placed(leaves.iter_mut(), &poses);
+        let mut placed = placed(leaves.iter_mut(), &seats);
         let mut wearers = Vec::new();
         let mut wearing = Vec::new();
         for held in &held {

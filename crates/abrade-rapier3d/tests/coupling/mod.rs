@@ -1,6 +1,7 @@
 //! The plug-in against Rapier: gate, hooks, and independence of the embedder's step and origin.
 //! Both precisions run the same tests.
 
+mod closed;
 mod crowd;
 mod gate;
 mod hail;
