@@ -98,6 +98,10 @@ impl WearWorld {
 /// What a body does if it is alone; nothing if it will not be let through, or if it fails.
 fn run(tracked: &mut Tracked, scene: &Scene<'_>) -> Option<Ahead> {
     let start = scene.start(tracked).ok()??;
+    if start.free.is_some() {
+        // Whoever comes first moves the surface of those who follow.
+        return None;
+    }
     let way = start.way(scene.world, scene.obstacles)?;
     let encounter = scene.encounter(&start, tracked).ok()?;
     let errand = scene.errand(way, &start, Until::Duration);

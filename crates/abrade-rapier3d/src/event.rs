@@ -86,8 +86,9 @@ pub enum Refusal {
         /// The first such collider.
         collider: ColliderHandle,
     },
-    /// The surface is on a dynamic body, which the contact would move.
-    #[error("the wear surface is on a dynamic body")]
+    /// The surface is on a dynamic body that is jointed, has locked axes, or could meet something
+    /// else in the step.
+    #[error("the wear surface is on a dynamic body that something else holds or could meet")]
     SurfaceMoves,
     /// A collider of the body is neither a ball, a cuboid, a convex polyhedron nor a compound of
     /// those.

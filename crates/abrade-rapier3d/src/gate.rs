@@ -3,17 +3,18 @@
 
 use abrade::{Loads, State};
 use nalgebra::{Isometry3, Point3, Vector3};
-use rapier::dynamics::{LockedAxes, RigidBody, RigidBodyHandle, RigidBodySet, RigidBodyType};
+use rapier::dynamics::{LockedAxes, RigidBody, RigidBodyHandle, RigidBodyType};
 use rapier::geometry::{Collider, ColliderSet};
 
 use crate::event::Refusal;
+use crate::free::Free;
 use crate::obstacle::{Obstacles, interact};
 use crate::path::Extent;
 use crate::surface::{SurfaceId, WornCollider};
 use crate::track::Track;
 use crate::tracked::Tracked;
 use crate::view::WorldView;
-use crate::{scalar, shadow};
+use crate::{derive, scalar, shadow};
 
 /// Share of its radius by which a body is taken for larger than it is.
 const MARGIN: f64 = 1e-3;
@@ -29,11 +30,14 @@ pub(crate) struct Lie {
     pub lead: Option<Lead>,
 }
 
-/// The motion of a surface that a kinematic body leads through a step.
+/// The motion of a surface that a kinematic or a dynamic body takes along.
 #[derive(Clone, Copy)]
 pub(crate) struct Lead {
     /// That of the body, in the world.
     pub state: State,
+    /// The body, if it is dynamic, and what acts on it beside the contact, in the world.
+    pub free: Option<Free>,
+    pub loads: Loads,
     /// Bound of the speed of a node [m/s].
     pub speed: f64,
 }
@@ -53,31 +57,61 @@ impl Lie {
 /// Where the surfaces lie; those whose proxy is gone or disabled are left out.
 pub(crate) fn lie(
     surfaces: &[WornCollider],
-    bodies: &RigidBodySet,
-    colliders: &ColliderSet,
+    world: &WorldView<'_>,
+    tracked: &[Option<Tracked>],
     [dt, sight]: [f64; 2],
     lies: &mut Vec<Lie>,
 ) {
     lies.clear();
     for (id, worn) in surfaces.iter().enumerate() {
-        let Some(proxy) = colliders.get(worn.proxy).filter(|proxy| proxy.is_enabled()) else {
+        let Some(proxy) = world.colliders.get(worn.proxy).filter(|proxy| proxy.is_enabled()) else {
             continue;
         };
-        let pose = worn.pose(proxy);
+        let mut pose = worn.pose(proxy);
         let extent = worn.bounds.grown(worn.inflation).placed_by(&pose);
-        let lead = lead(proxy, bodies, &extent, dt);
+        let lead = lead(proxy, world, tracked, &extent, dt);
+        if let Some(Lead { state, free: Some(free), .. }) = &lead
+            && let Some(rb) = world.bodies.get(free.body)
+        {
+            pose = carried_pose(state, rb, proxy) * worn.offset;
+        }
         let extent = extent.grown(lead.map_or(0.0, |lead| lead.speed * sight));
         lies.push(Lie { id: SurfaceId(id), pose, extent, lead });
     }
 }
 
-/// How the kinematic body of `proxy`, whose nodes lie in `extent`, moves over `dt` [s].
-fn lead(proxy: &Collider, bodies: &RigidBodySet, extent: &Extent, dt: f64) -> Option<Lead> {
-    let rb = proxy.parent().and_then(|handle| bodies.get(handle))?;
-    if !rb.is_kinematic() {
+/// Pose of the collider `proxy` of a body that is exactly in `state`.
+fn carried_pose(state: &State, rb: &RigidBody, proxy: &Collider) -> Isometry3<f64> {
+    let origin = Isometry3::from(-scalar::vector(rb.local_center_of_mass()));
+    let place = proxy.position_wrt_parent().map_or_else(Isometry3::identity, scalar::pose);
+    state.pose() * origin * place
+}
+
+/// How the body of `proxy`, whose nodes lie in `extent`, moves over `dt` [s].
+fn lead(
+    proxy: &Collider,
+    world: &WorldView<'_>,
+    tracked: &[Option<Tracked>],
+    extent: &Extent,
+    dt: f64,
+) -> Option<Lead> {
+    let handle = proxy.parent()?;
+    let rb = world.bodies.get(handle)?;
+    let mut state = shadow::held(rb);
+    let (mut free, mut loads) = (None, Loads::default());
+    let mut gain = 0.0;
+    if rb.is_dynamic() {
+        let gravity = scalar::vector(world.gravity);
+        let inertia = derive::inertia(rb).ok()?;
+        free = Some(Free { body: handle, inertia });
+        loads = self::loads(rb, &gravity, &Isometry3::identity());
+        gain = (loads.gravity.norm() + loads.force.norm() / inertia.mass) * dt;
+        if let Some(tracked) = Tracked::find(tracked, handle) {
+            state = tracked.state(rb);
+        }
+    } else if !rb.is_kinematic() {
         return None;
     }
-    let mut state = shadow::held(rb);
     if rb.body_type() == RigidBodyType::KinematicPositionBased {
         let [from, to] = [rb.position(), rb.next_position()].map(scalar::pose);
         let com = Point3::from(scalar::vector(rb.local_center_of_mass()));
@@ -86,8 +120,8 @@ fn lead(proxy: &Collider, bodies: &RigidBodySet, extent: &Extent, dt: f64) -> Op
     }
     let reach = (nalgebra::center(&extent.low, &extent.high) - state.position).norm()
         + extent.half().norm();
-    let speed = state.velocity.norm() + state.spin.norm() * reach;
-    (speed > 0.0).then_some(Lead { state, speed })
+    let speed = state.velocity.norm() + state.spin.norm() * reach + gain;
+    (free.is_some() || speed > 0.0).then_some(Lead { state, free, loads, speed })
 }
 
 /// The plane below which a body has met the surface for certain: only flat ones at rest have one.
@@ -268,7 +302,7 @@ impl Way<'_> {
 
     fn on(&self, track: &Track) -> Option<Refusal> {
         let own = self.rb.colliders();
-        let found = self.obstacles.in_way(self.body, own, track, &self.frame, self.colliders);
+        let found = self.obstacles.in_way(&[self.body], own, track, &self.frame, self.colliders);
         found.map(|collider| Refusal::Obstructed { collider })
     }
 }
@@ -288,6 +322,9 @@ fn time_to_fall(height: f64, velocity: f64, pull: f64) -> f64 {
 
 /// True when Rapier would let the body feel the proxy.
 pub(crate) fn feels(rb: &RigidBody, worn: &WornCollider, colliders: &ColliderSet) -> bool {
+    if rb.colliders().contains(&worn.proxy) {
+        return false;
+    }
     let Some(proxy) = colliders.get(worn.proxy) else { return false };
     let mut own = rb.colliders().iter().filter_map(|&handle| colliders.get(handle));
     own.any(|mine| interact(mine, proxy))
@@ -298,19 +335,14 @@ pub(crate) fn bound(
     world: &WorldView<'_>,
     rb: &RigidBody,
     body: RigidBodyHandle,
-    near: &[SurfaceId],
-    surfaces: &[WornCollider],
 ) -> Option<Refusal> {
     if world.jointed(body) {
         return Some(Refusal::Jointed);
     }
     let locked = rb.locked_axes();
     let rotations = LockedAxes::ROTATION_LOCKED;
-    if !(locked - rotations).is_empty() || !(locked.is_empty() || locked.contains(rotations)) {
-        return Some(Refusal::LockedAxes);
-    }
-    let free = |id: &SurfaceId| surfaces[id.0].is_free(world.bodies, world.colliders);
-    near.iter().any(free).then_some(Refusal::SurfaceMoves)
+    let fine = (locked - rotations).is_empty() && (locked.is_empty() || locked.contains(rotations));
+    (!fine).then_some(Refusal::LockedAxes)
 }
 
 /// What acts on the body beside the contact, in the frame that `frame` places.

@@ -40,6 +40,7 @@ mod derive;
 mod drive;
 mod error;
 mod event;
+mod free;
 mod gate;
 mod glance;
 mod guard;

@@ -1,7 +1,7 @@
 //! The Micro resolver: one body carried through a whole step by the core, on its own.
 
 use abrade::{
-    Advance, Body, Carrier, Changes, Encounter, Loads, PhysicsError, Placed, Surface, Until,
+    Advance, Body, Carrier, Changes, Encounter, Loads, PhysicsError, Placed, State, Surface, Until,
 };
 use nalgebra::{Isometry3, Vector3};
 
@@ -35,7 +35,8 @@ impl Live {
     }
 
     /// Carries `body`, whose state is given in the frame of the first surface. Where changes are
-    /// noted, the surfaces are worn by way of leaves, which know theirs.
+    /// noted, the surfaces are worn by way of leaves, which know theirs. Returns the volumes too, and
+    /// the end of the dynamic body that a surface is on.
     pub fn carry(
         &mut self,
         body: &mut Body,
@@ -44,7 +45,7 @@ impl Live {
         errand: &Errand<'_>,
         relay: &mut Relay<'_>,
         changed: &mut Changed,
-    ) -> (Result<Advance, PhysicsError>, Volumes) {
+    ) -> (Result<Advance, PhysicsError>, Volumes, Option<State>) {
         let seats = seats(&self.surfaces, lies, &errand.way.frame);
         let mut go = |placed: &mut [Placed<'_>]| match errand.in_parts {
             true => go_in_parts(&mut self.encounter, body, placed, errand, relay),
@@ -53,13 +54,17 @@ impl Live {
         if changed.is_noted() {
             let leaf = |id: &SurfaceId| Surface::leaf(&surfaces[id.0].surface);
             let mut leaves: Vec<Surface> = self.surfaces.iter().map(leaf).collect();
-            let result = go(&mut placed(leaves.iter_mut(), &seats));
+            let mut placed = placed(leaves.iter_mut(), &seats);
+            let result = go(&mut placed);
+            let carrier = carrier(&placed);
             let changes: Vec<_> = leaves.into_iter().map(Surface::into_changes).collect();
-            return (result, apply(&self.surfaces, &changes, surfaces, changed));
+            return (result, apply(&self.surfaces, &changes, surfaces, changed), carrier);
         }
-        let result = go(&mut place(surfaces, &self.surfaces, &seats));
+        let mut placed = place(surfaces, &self.surfaces, &seats);
+        let result = go(&mut placed);
+        let carrier = carrier(&placed);
         let worn = |id: &SurfaceId| (*id, surfaces[id.0].owned().settle().displaced());
-        (result, self.surfaces.iter().map(worn).collect())
+        (result, self.surfaces.iter().map(worn).collect(), carrier)
     }
 }
 
@@ -138,6 +143,12 @@ pub(crate) fn apply(
         .collect()
 }
 
+/// State of the dynamic body that carries one of the surfaces.
+fn carrier(placed: &[Placed<'_>]) -> Option<State> {
+    let carriers = placed.iter().filter_map(|placed| placed.carrier.as_ref());
+    carriers.filter(|carrier| carrier.inertia.is_some()).map(|carrier| carrier.state).next()
+}
+
 /// Where a surface lies in the frame of an integration, and what carries it.
 pub(crate) type Seat = (Isometry3<f64>, Option<Carrier>);
 
@@ -151,12 +162,19 @@ pub(crate) fn seats(ids: &[SurfaceId], lies: &[Lie], frame: &Isometry3<f64>) -> 
         };
         let carrier = |lead: Lead| Carrier {
             state: lead.state.seen_from(frame),
-            inertia: None,
-            loads: Loads::default(),
+            inertia: lead.free.map(|free| free.inertia),
+            loads: turned(&lead.loads, frame),
         };
         (pose, lie.lead.map(carrier))
     };
     ids.iter().map(seat).collect()
+}
+
+/// Loads in the world, seen from `frame`.
+fn turned(loads: &Loads, frame: &Isometry3<f64>) -> Loads {
+    let [gravity, force, torque] =
+        [loads.gravity, loads.force, loads.torque].map(|v| frame.inverse_transform_vector(&v));
+    Loads { gravity, force, torque, ..*loads }
 }
 
 /// The surfaces on their seats.

@@ -151,10 +151,11 @@ impl Obstacles {
         !own.into_iter().any(meets)
     }
 
-    /// A collider that `body` could run into on `track`, given in `frame`.
+    /// A collider that the colliders `own` could run into on `track`, given in `frame`; those of
+    /// `bodies` do not count.
     pub fn in_way(
         &self,
-        body: RigidBodyHandle,
+        bodies: &[RigidBodyHandle],
         own: &[ColliderHandle],
         track: &Track,
         frame: &Isometry3<f64>,
@@ -163,7 +164,9 @@ impl Obstacles {
         let blocked = |number: usize, region: &Extent| {
             let world_box = region.placed_by(frame);
             let near = self.bins.find(number, &world_box).map(|place| &self.list[place as usize]);
-            let near = near.filter(|o| o.body != Some(body) && o.extent.meets(&world_box));
+            let near = near.filter(|o| {
+                o.body.is_none_or(|body| !bodies.contains(&body)) && o.extent.meets(&world_box)
+            });
             let mut solid = near.filter(|o| {
                 let Some(other) = colliders.get(o.collider) else { return false };
                 let mut own = own.iter().filter_map(|&handle| colliders.get(handle));

@@ -130,6 +130,8 @@ impl WearWorld {
             surfaces: &self.surfaces,
             lies: &self.lies,
             obstacles: &self.obstacles,
+            candidates: &self.candidates,
+            carried: &self.current.carried,
             settings: &self.settings,
             dt,
             sight: self.current.sight,
@@ -147,7 +149,8 @@ impl WearWorld {
             let encounter = scene.encounter(&start, tracked)?;
             tracked.live = Some(Live::new(encounter, start.surfaces.clone()));
         }
-        let moves = start.moves;
+        let (moves, free) = (start.moves, start.free);
+        let mut moved = None;
         let Known::Ready(body) = &mut tracked.known else { return Ok(()) };
         let Some(live) = &mut tracked.live else { return Ok(()) };
         let (frame, course) = (start.frame, start.course);
@@ -167,14 +170,19 @@ impl WearWorld {
                     Relay { observer, body: handle, frame, surfaces, began: 0.0, trace };
                 errand.in_parts = matches!(how, How::Parts);
                 let (surfaces, lies, changed) = (&mut self.surfaces, &self.lies, &mut self.changed);
-                let (advance, worn) =
+                let (advance, worn, carrier) =
                     live.carry(body, surfaces, lies, &errand, &mut relay, changed);
+                moved = free.zip(carrier);
                 let track = relay.trace.finish().map(|extent| extent.grown(course.radius()));
                 (advance?, worn, track)
             }
         };
         let end = body.state;
         self.integrated.push(Integrated { body: handle, end, frame });
+        if let Some((free, end)) = moved {
+            self.integrated.push(Integrated { body: free, end, frame });
+            self.current.carried.push(free);
+        }
         self.obstacles.settle(handle, &track.placed_by(&frame));
         self.book_micro(handle, &advance, &worn, &frame, until);
         Ok(())

@@ -17,7 +17,7 @@ use crate::surface::{SurfaceId, WornCollider};
 use crate::tracked::{Known, Tracked};
 use crate::view::WorldView;
 use crate::world::WearWorld;
-use crate::{afloat, scalar, shadow};
+use crate::{afloat, free, scalar, shadow};
 
 /// Share of its radius by which a body may lie inside a surface and be lifted out of it.
 const LIFT: f64 = 0.2;
@@ -28,6 +28,9 @@ pub(crate) struct Scene<'a> {
     pub surfaces: &'a [WornCollider],
     pub lies: &'a [Lie],
     pub obstacles: &'a Obstacles,
+    /// Bodies near a surface, and dynamic bodies of surfaces that were carried in this step.
+    pub candidates: &'a [RigidBodyHandle],
+    pub carried: &'a [RigidBodyHandle],
     pub settings: &'a WearSettings,
     /// Length of the step [s].
     pub dt: f64,
@@ -50,6 +53,8 @@ pub(crate) struct Start {
     pub is_new: bool,
     /// A surface moves in the step.
     pub moves: bool,
+    /// The dynamic body that its surface is on.
+    pub free: Option<RigidBodyHandle>,
 }
 
 /// How a body is carried through the step.
@@ -70,6 +75,8 @@ impl WearWorld {
             surfaces: &self.surfaces,
             lies: &self.lies,
             obstacles: &self.obstacles,
+            candidates: &self.candidates,
+            carried: &self.current.carried,
             settings: &self.settings,
             dt: self.current.dt,
             sight: self.current.sight,
@@ -82,7 +89,7 @@ impl Scene<'_> {
     pub fn start(&self, tracked: &mut Tracked) -> Result<Option<Start>, Left> {
         let body = tracked.handle;
         let Some(rb) = self.world.bodies.get(body) else { return Ok(None) };
-        if let Some(refusal) = gate::bound(self.world, rb, body, &tracked.near, self.surfaces) {
+        if let Some(refusal) = gate::bound(self.world, rb, body) {
             return Err(refusal.into());
         }
         tracked.derive(rb, self.world.colliders)?;
@@ -117,7 +124,11 @@ impl Scene<'_> {
             course.state.position += frame * Vector3::z() * lift;
         }
         known.state = state;
-        Ok(Some(Start { body, surfaces, frame, bounds, state, course, is_new, moves }))
+        if let Some(refusal) = self.bound_by_free(body, &surfaces, &course) {
+            return Err(refusal.into());
+        }
+        let free = free::lead(self.lies, &surfaces).map(|(_, free)| free.body);
+        Ok(Some(Start { body, surfaces, frame, bounds, state, course, is_new, moves, free }))
     }
 
     /// The encounter that the body has or begins.
@@ -151,6 +162,12 @@ impl Scene<'_> {
         is_watched: bool,
     ) -> Result<How, Left> {
         let way = &errand.way;
+        if start.free.is_some() {
+            return match way.in_reach(&start.course, self.dt) {
+                None => Ok(How::Whole),
+                Some(refusal) => Err(refusal.into()),
+            };
+        }
         // Loaded springs may throw the body farther than its speed tells.
         let touches = tracked.live.as_ref().is_some_and(|live| live.encounter.in_contact());
         let is_free = || !touches && way.in_reach(&start.course, self.dt).is_none();

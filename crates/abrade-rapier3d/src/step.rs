@@ -16,7 +16,7 @@ use crate::surface::WornCollider;
 use crate::tracked::Tracked;
 use crate::view::WorldView;
 use crate::world::{Current, WearWorld};
-use crate::{scalar, steer};
+use crate::{derive, free, scalar, steer};
 
 impl WearWorld {
     /// The whole step of `world`: as `world.step_with_events(hooks, events)`, with wear.
@@ -114,6 +114,9 @@ impl WearWorld {
             let Some(rb) = world.bodies.get_mut(integrated.body) else { continue };
             let dt = self.current.dt;
             self.taken.add_body(integrated.body);
+            if rb.is_sleeping() {
+                rb.wake_up(true);
+            }
             self.steered.push(steer::steer(integrated, rb, gravity, world.parameters, dt));
         }
     }
@@ -201,7 +204,7 @@ impl WearWorld {
     /// Finds the bodies near a surface; ends encounters of those that are not.
     fn choose(&mut self, world: &mut WorldView<'_>, gravity: &Vector3<f64>) {
         let times = [self.current.dt, self.current.sight];
-        gate::lie(&self.surfaces, world.bodies, world.colliders, times, &mut self.lies);
+        gate::lie(&self.surfaces, world, &self.bodies, times, &mut self.lies);
         let mut picked = std::mem::take(&mut self.picked);
         let span = Span { dt: self.current.sight, gravity: gravity.norm() };
         self.glances.pick(world.bodies, world.colliders, &self.lies, span, &mut picked);
@@ -224,7 +227,7 @@ impl WearWorld {
                 tracked.leave(&mut self.surfaces, &mut self.closed, &mut self.events);
             }
             let Some(rb) = world.bodies.get(handle) else { continue };
-            self.look_at(handle, rb, world.colliders, gravity);
+            self.look_at(handle, rb, world, gravity);
             self.glances.keep(handle, rb, Tracked::slot(&mut self.bodies, handle));
         }
         self.picked = picked;
@@ -254,9 +257,10 @@ impl WearWorld {
         &mut self,
         handle: RigidBodyHandle,
         rb: &RigidBody,
-        colliders: &ColliderSet,
+        world: &WorldView<'_>,
         gravity: &Vector3<f64>,
     ) {
+        let (bodies, colliders) = (&*world.bodies, &*world.colliders);
         let (surfaces, dt) = (&self.surfaces, self.current.dt);
         let tracked = Tracked::slot(&mut self.bodies, handle);
         let lost = tracked.drop_lost_shadow(rb);
@@ -273,7 +277,12 @@ impl WearWorld {
         let Some(lie) = Lie::find(&self.lies, first) else { return };
         let track = course.track_before(&lie.pose, &gate::floor(lie, &surfaces[first.0]), dt);
         tracked.course = Some(Box::new(track.placed_by(&lie.pose)));
-        let reach = course.reach(&Isometry3::identity(), dt);
+        let mut reach = course.reach(&Isometry3::identity(), dt);
+        if let Some((lead, free)) = free::lead(&self.lies, &tracked.near) {
+            let rb = bodies.get(free.body);
+            let radius = rb.map_or(0.0, |rb| derive::radius(rb, colliders));
+            reach = reach.joined(&free::reach(&lead, radius, &course, dt));
+        }
         let reach = self.current.reach.map_or(reach, |others| others.joined(&reach));
         self.current.reach = Some(reach);
         self.candidates.push(handle);

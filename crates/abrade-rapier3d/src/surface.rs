@@ -5,8 +5,7 @@ use std::sync::Arc;
 
 use abrade::{ElasticLaw, Surface};
 use nalgebra::{Isometry3, Point3};
-use rapier::dynamics::{RigidBody, RigidBodySet};
-use rapier::geometry::{Collider, ColliderHandle, ColliderSet};
+use rapier::geometry::{Collider, ColliderHandle};
 use rapier::math::Pose;
 
 use crate::path::Extent;
@@ -64,12 +63,6 @@ impl WornCollider {
             Some((seen, exact)) if seen == proxy.position() => *exact,
             _ => scalar::pose(proxy.position()) * self.offset,
         }
-    }
-
-    /// True when a contact could move the proxy's body.
-    pub fn is_free(&self, bodies: &RigidBodySet, colliders: &ColliderSet) -> bool {
-        let parent = colliders.get(self.proxy).and_then(Collider::parent);
-        parent.and_then(|handle| bodies.get(handle)).is_some_and(RigidBody::is_dynamic)
     }
 
     /// The surface, to be worn.

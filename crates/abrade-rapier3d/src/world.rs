@@ -92,6 +92,8 @@ pub(crate) struct Current {
     pub failure: Option<WearError>,
     /// Box around wherever bodies near a surface may get.
     pub reach: Option<Extent>,
+    /// Dynamic bodies whose surfaces have been struck: they were carried with what struck them.
+    pub carried: Vec<RigidBodyHandle>,
 }
 
 impl WearWorld {

@@ -1,0 +1,77 @@
+//! A surface on a dynamic body: what strikes it moves it, so both go through the step together, and
+//! nothing else may come near either of them.
+
+use abrade::Inertia;
+use nalgebra::Isometry3;
+use rapier::dynamics::{RigidBody, RigidBodyHandle};
+
+use crate::derive;
+use crate::event::Refusal;
+use crate::gate::{Course, Lead, Lie};
+use crate::path::Extent;
+use crate::start::Scene;
+use crate::surface::SurfaceId;
+use crate::track::Track;
+
+/// The dynamic body that a surface is on.
+#[derive(Clone, Copy)]
+pub(crate) struct Free {
+    pub body: RigidBodyHandle,
+    pub inertia: Inertia,
+}
+
+/// The lead of the free surface among `near`, if there is one.
+pub(crate) fn lead(lies: &[Lie], near: &[SurfaceId]) -> Option<(Lead, Free)> {
+    near.iter().find_map(|id| {
+        let lead = Lie::find(lies, *id)?.lead?;
+        Some((lead, lead.free?))
+    })
+}
+
+/// Box around wherever the body of a free surface, of `radius` [m], may be flung over `dt` [s] by
+/// the body of `course`, in the world: an elastic blow gives it twice the speed of approach.
+pub(crate) fn reach(lead: &Lead, radius: f64, course: &Course, dt: f64) -> Extent {
+    let striker = course.state.velocity.norm()
+        + course.state.spin.norm() * course.radius()
+        + course.acceleration.norm() * dt;
+    let speed = lead.speed + 2.0 * (lead.speed + striker);
+    let at = lead.state.position;
+    Extent { low: at, high: at }.grown(radius + speed * dt)
+}
+
+impl Scene<'_> {
+    /// Why `body` may not be carried on the surfaces `near` it, if one of them is free.
+    pub fn bound_by_free(
+        &self,
+        body: RigidBodyHandle,
+        near: &[SurfaceId],
+        course: &Course,
+    ) -> Option<Refusal> {
+        let (lead, free) = lead(self.lies, near)?;
+        let alone = near.len() == 1
+            && !self.candidates.contains(&free.body)
+            && !self.carried.contains(&free.body)
+            && !self.world.jointed(free.body)
+            && self.world.bodies.get(free.body).is_some_and(|rb| {
+                rb.locked_axes().is_empty() && !self.meets(rb, body, &lead, free.body, course)
+            });
+        (!alone).then_some(Refusal::SurfaceMoves)
+    }
+
+    /// True when something but `body` could meet the body `rb` of a free surface.
+    fn meets(
+        &self,
+        rb: &RigidBody,
+        body: RigidBodyHandle,
+        lead: &Lead,
+        free: RigidBodyHandle,
+        course: &Course,
+    ) -> bool {
+        let colliders = &*self.world.colliders;
+        let radius = derive::radius(rb, colliders);
+        let track = Track::still(reach(lead, radius, course, self.dt));
+        let frame = Isometry3::identity();
+        let both = [body, free];
+        self.obstacles.in_way(&both, rb.colliders(), &track, &frame, colliders).is_some()
+    }
+}
