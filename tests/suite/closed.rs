@@ -73,17 +73,20 @@ impl Hit {
     }
 }
 
-/// Slabs whose top is z = 0 and whose nodes are 0.05 apart there: as a strip, a box and a disc,
-/// whose nodes lie in squares and in rings.
-fn plates(laws: &SurfaceLaws) -> [(&'static str, Surface); 3] {
-    let strip = HexStrip { length: 2.2, width: 2.0, pitch: 0.05, rest_area: None };
+/// Slabs whose top is z = 0 and whose nodes are 0.03 apart there: as a strip, as a box and as a
+/// disc, whose nodes lie in squares and in rings, and as a box resampled from a coarse one.
+fn plates(laws: &SurfaceLaws) -> [(&'static str, Surface); 4] {
+    let strip = HexStrip { length: 2.2, width: 2.0, pitch: 0.03, rest_area: None };
     let half = Vector3::new(1.0, 0.95, 0.3);
     let down = Isometry3::translation(0.0, 0.0, -half.z);
-    let cuboid = TriangleMesh::cuboid(half, 0.0466).expect("a box").moved(&down);
-    let disc = TriangleMesh::cylinder(1.1, 2.0 * half.z, 0.05).expect("a disc").moved(&down);
+    let cuboid = TriangleMesh::cuboid(half, 0.028).expect("a box").moved(&down);
+    let coarse = TriangleMesh::cuboid(half, 0.5).expect("a box").moved(&down);
+    let any = coarse.resampled(0.03).expect("a finer box");
+    let disc = TriangleMesh::cylinder(1.1, 2.0 * half.z, 0.03).expect("a disc").moved(&down);
     [
         ("strip", Surface::hex_strip(strip, laws.clone()).expect("a strip")),
         ("cuboid", Surface::mesh(&cuboid, laws.clone()).expect("a mesh")),
+        ("mesh", Surface::mesh(&any, laws.clone()).expect("a mesh")),
         ("disc", Surface::mesh(&disc, laws.clone()).expect("a mesh")),
     ]
 }
@@ -97,7 +100,7 @@ fn a_plate_wears_the_same_in_every_guise() {
         UnitQuaternion::from_scaled_axis(Vector3::new(0.7, -1.1, 0.4)),
     );
     let away = Isometry3::translation(10.0, -4.0, 7.0);
-    let (cube, heavy) = hull(&Polyhedron::Cube.vertices(0.7), MASS);
+    let (cube, heavy) = hull(&Polyhedron::Cube.vertices(0.7), 3.0 * MASS);
     let rotation = UnitQuaternion::from_scaled_axis(Vector3::new(0.3, 0.5, 0.2));
     let bodies = [("ball", ball(0.5)), ("cube", (cube, heavy))];
     let kinds = [laws(springs(300.0), paper(), 0.2), laws(ElasticLaw::Rigid, paper(), 0.2)];
@@ -267,4 +270,59 @@ fn strikes_at_edges_and_through_thin_walls_make_no_energy() {
             }
         }
     }
+}
+
+/// Fails for a floor that must have a mass, and for one whose own motion counts.
+#[test]
+fn a_cube_that_wears_is_thrown_on_a_floor() {
+    let edge = 0.5;
+    let mesh = TriangleMesh::cuboid(Vector3::repeat(0.5 * edge), 0.04).expect("a cube");
+    let (floor, _) = hull(&abrade::cuboid_vertices(&Vector3::new(2.0, 2.0, 0.2)), 1.0);
+    let inertia = Inertia {
+        mass: MASS,
+        tensor: nalgebra::Matrix3::from_diagonal_element(MASS * edge * edge / 6.0),
+    };
+    for (name, laws) in [
+        ("rigid", laws(ElasticLaw::Rigid, FlowLaw::NormalPressure {}, 0.2)),
+        ("springs", laws(springs(300.0), paper(), 0.2)),
+    ] {
+        let cube = State {
+            position: Point3::new(0.0, 0.0, 0.6),
+            rotation: UnitQuaternion::from_scaled_axis(Vector3::new(0.4, 0.3, 0.1)),
+            velocity: Vector3::new(0.3, 0.1, -1.0),
+            spin: Vector3::new(0.5, -1.0, 0.3),
+        };
+        let loads = Loads::default();
+        let fixed = State::at(Point3::new(0.0, 0.0, -0.2));
+        let ends = [Inertia::immovable(), heavy(1e6 * MASS)].map(|floor_inertia| {
+            let mut surface = Surface::mesh(&mesh, laws.clone()).expect("a surface");
+            let mut body = Body {
+                shape: floor.clone(),
+                inertia: floor_inertia,
+                state: fixed,
+                rotation_locked: false,
+            };
+            let settings = EncounterSettings { ledger: true, ..Default::default() };
+            let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
+            let carrier = Some(Carrier { state: cube, inertia: Some(inertia), loads });
+            let pose = cube.pose();
+            let mut placed = [Placed { surface: &mut surface, pose, carrier }];
+            encounter
+                .advance(&mut body, &mut placed, &loads, 1.0, Until::Duration, &mut ())
+                .expect("a contact");
+            let end = placed[0].carrier.expect("the cube").state;
+            let numerical = encounter.ledger().numerical() / inertia.kinetic_energy(&cube);
+            (surface.wear_volume(), end, numerical)
+        });
+        let [(w, end, numerical), (heavy, other, _)] = ends;
+        let dv = (end.velocity - other.velocity).norm();
+        println!("{name}: W {w:.4e} {heavy:.4e} v {dv:.1e} numerical {numerical:.1e}");
+        assert!(w > 0.0 && (heavy / w - 1.0).abs() < 1e-4, "{name}: {w:e} {heavy:e}");
+        assert!(dv < 1e-3 && numerical.abs() < 1e-2, "{name}: {dv:e} {numerical:e}");
+    }
+}
+
+/// A body of `mass` that is hard to turn.
+fn heavy(mass: f64) -> Inertia {
+    Inertia { mass, tensor: nalgebra::Matrix3::from_diagonal_element(mass) }
 }

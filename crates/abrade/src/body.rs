@@ -11,7 +11,7 @@ use crate::state::{Fault, finite, positive, require};
 #[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "state", serde(remote = "Self"))]
 pub struct Inertia {
-    /// Mass [kg].
+    /// Mass [kg]; infinite for a body that nothing moves.
     pub mass: f64,
     /// Inertia tensor in the body's frame [kg m2].
     pub tensor: Matrix3<f64>,
@@ -97,8 +97,22 @@ impl Inertia {
         Self { mass, tensor: Matrix3::from_diagonal_element(0.4 * mass * radius * radius) }
     }
 
-    /// Kinetic energy [J] of a body in `state`.
+    /// That of a body that keeps its velocity and its spin whatever acts on it: a floor, or a tool
+    /// that something else leads in a straight line.
+    pub fn immovable() -> Self {
+        Self { mass: f64::INFINITY, tensor: Matrix3::identity() }
+    }
+
+    /// True for a body that nothing moves.
+    pub fn is_immovable(&self) -> bool {
+        self.mass == f64::INFINITY
+    }
+
+    /// Kinetic energy [J] of a body in `state`; zero for one that nothing moves.
     pub fn kinetic_energy(&self, state: &State) -> f64 {
+        if self.is_immovable() {
+            return 0.0;
+        }
         let spin = state.rotation.inverse_transform_vector(&state.spin);
         0.5 * self.mass * state.velocity.norm_squared() + 0.5 * spin.dot(&(self.tensor * spin))
     }
@@ -116,7 +130,7 @@ impl State {
 #[cfg(feature = "state")]
 impl Inertia {
     pub(crate) fn checked(self) -> Result<Self, Fault> {
-        let fine = positive(self.mass) && finite(self.tensor.iter());
+        let fine = (positive(self.mass) || self.is_immovable()) && finite(self.tensor.iter());
         require(fine, "an inertia is not finite, or its mass not above zero")?;
         Ok(self)
     }

@@ -125,10 +125,7 @@ impl Carrier {
     /// [m/s2]: inertial forces in a turning frame.
     pub(crate) fn acceleration(&self, state: &State) -> f64 {
         let loads = match &self.inertia {
-            Some(inertia) => {
-                let Loads { gravity, force, .. } = &self.loads;
-                gravity.norm() + force.norm() / inertia.mass
-            }
+            Some(inertia) => self.loads.acceleration(inertia),
             None => 0.0,
         };
         let turn = self.state.spin.norm();
@@ -238,6 +235,15 @@ impl Integrator {
         self.answers.resize(surfaces.len(), Answer::default());
     }
 
+    /// Largest change of a carrier's velocity over `half` a step that its columns predict [m/s].
+    pub(crate) fn carriers_prediction(&self, half: f64) -> f64 {
+        let pairs = self.hands.iter().zip(&self.mounts);
+        let change = |(hand, mount): (&Hand, &Option<Dynamics>)| {
+            Some(mount.as_ref()?.accelerate(&(hand.swept.force * half)).norm())
+        };
+        pairs.filter_map(change).fold(0.0, f64::max)
+    }
+
     /// Change of the kinetic energy of the body and the carriers by impulses of the last trial.
     pub(crate) fn change(
         &self,
@@ -317,8 +323,8 @@ impl Integrator {
             let (Some(carrier), Some(ride)) = (&placed.carrier, ride) else { continue };
             work += match &carrier.inertia {
                 Some(inertia) => {
-                    let weight = carrier.loads.force + carrier.loads.gravity * inertia.mass;
-                    weight.dot(&ride.shift) + carrier.loads.torque.dot(&ride.turn)
+                    let pull = carrier.loads.pull(inertia);
+                    pull.dot(&ride.shift) + carrier.loads.torque.dot(&ride.turn)
                 }
                 None => {
                     let before = reaction(&hand.springs, &body.state, &carrier.state) * (0.5 * dt);

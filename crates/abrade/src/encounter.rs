@@ -3,7 +3,7 @@
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
-use crate::body::{Body, State};
+use crate::body::{Body, Inertia, State};
 use crate::carrier::Carrier;
 use crate::contact::Contact;
 use crate::error::PhysicsError;
@@ -53,6 +53,24 @@ pub struct Loads {
     pub linear_damping: f64,
     /// Angular damping [1/s].
     pub angular_damping: f64,
+}
+
+impl Loads {
+    /// Force on a body with its weight [N]; zero for one that nothing moves.
+    pub(crate) fn pull(&self, inertia: &Inertia) -> Vector3<f64> {
+        match inertia.is_immovable() {
+            true => Vector3::zeros(),
+            false => self.force + self.gravity * inertia.mass,
+        }
+    }
+
+    /// Bound of what they accelerate a body by [m/s2].
+    pub(crate) fn acceleration(&self, inertia: &Inertia) -> f64 {
+        match inertia.is_immovable() {
+            true => 0.0,
+            false => self.gravity.norm() + self.force.norm() / inertia.mass,
+        }
+    }
 }
 
 /// When [`Encounter::advance`] may return before its duration is over.

@@ -199,7 +199,7 @@ impl Integrator {
     fn contact_step(&self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads) -> f64 {
         let push = self.pull.push;
         let direction = push / push.norm().max(f64::MIN_POSITIVE);
-        let net = self.pull.force + loads.force + loads.gravity * body.inertia.mass;
+        let net = self.pull.force + loads.pull(&body.inertia);
         let [velocity, acceleration] = self.motion_below(body, surfaces);
         let approach = -(body.state.velocity - velocity).dot(&direction);
         let slowing = net.dot(&direction) * self.dynamics.inverse_mass;
@@ -313,7 +313,7 @@ impl Integrator {
         self.arrive(surfaces, dt);
         if self.settings.ledger {
             let energy = |state: &State| body.inertia.kinetic_energy(state);
-            let weight = loads.force + loads.gravity * body.inertia.mass;
+            let weight = loads.pull(&body.inertia);
             let ledger = &mut self.ledger;
             let carried = carriers_energy(surfaces) - carried.unwrap_or_default();
             ledger.kinetic_change += energy(&state) - energy(&before) + carried;
@@ -321,6 +321,10 @@ impl Integrator {
             ledger.external_work += end.ledger.external_work
                 + weight.dot(&trial.shift)
                 + self.dynamics.work(&loads.torque, &trial.turn);
+            if self.dynamics.is_immovable() {
+                // What leads the body holds it against the contact.
+                ledger.external_work -= end.impulse.dot(&before.velocity);
+            }
             if self.dynamics.is_guided() {
                 // What leads the body takes up the force that its velocity does not show.
                 let total = end.impulse + weight * dt;
@@ -412,7 +416,7 @@ pub(crate) fn top_speed(placed: &Placed<'_>, body: &Body) -> f64 {
 /// Bound of the acceleration between body and surface out of contact [m/s2].
 fn acceleration(placed: &Placed<'_>, body: &Body, loads: &Loads) -> f64 {
     let carrier = placed.carrier.as_ref().map_or(0.0, |c| c.acceleration(&body.state));
-    loads.gravity.norm() + loads.force.norm() / body.inertia.mass + carrier
+    loads.acceleration(&body.inertia) + carrier
 }
 
 #[cfg(feature = "state")]

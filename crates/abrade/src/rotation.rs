@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 use crate::body::{Inertia, State};
 #[cfg(feature = "state")]
-use crate::state::{Fault, finite, positive, require};
+use crate::state::{Fault, finite, not_negative, require};
 
 /// Relative spread of the principal moments below which a body turns like a ball.
 const ISOTROPIC: f64 = 1e-12;
@@ -32,6 +32,9 @@ pub(crate) struct Dynamics {
 impl Dynamics {
     /// None when mass or inertia cannot move a body.
     pub(crate) fn new(inertia: &Inertia, locked: bool) -> Option<Self> {
+        if inertia.is_immovable() {
+            return Some(Self::immovable());
+        }
         let tensor = inertia.tensor;
         let mean = tensor.trace() / 3.0;
         let isotropic = (tensor - Matrix3::from_diagonal_element(mean)).amax() < ISOTROPIC * mean;
@@ -171,7 +174,7 @@ impl Dynamics {
     pub(crate) fn check(&self) -> Result<(), Fault> {
         let guide = self.guide.unwrap_or_default();
         let numbers = self.tensor.iter().chain(self.inverse.iter()).chain(guide.iter());
-        let fine = positive(self.inverse_mass) && finite(numbers);
+        let fine = not_negative(self.inverse_mass) && finite(numbers);
         require(fine, "a mass or inertia in contact is out of range")
     }
 }

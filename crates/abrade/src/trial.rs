@@ -164,8 +164,10 @@ impl Integrator {
         state.spin += kicked.spin - predicted;
         if !self.rides.is_empty() {
             let momentum = |s: &State| self.dynamics.angular_momentum(&s.rotation, &s.spin);
-            let orbit = (velocity * dt).cross(&kicked.velocity) * body.inertia.mass;
-            self.ahead += orbit + momentum(&state) - momentum(&kicked);
+            if !self.dynamics.is_immovable() {
+                let orbit = (velocity * dt).cross(&kicked.velocity) * body.inertia.mass;
+                self.ahead += orbit + momentum(&state) - momentum(&kicked);
+            }
         }
         // In flight nothing can be touched, so nothing is asked.
         let surfaces = if flight { &[] } else { surfaces };
@@ -257,7 +259,7 @@ impl Integrator {
         let radius = body.shape.bounding_radius();
         let speed =
             surfaces.iter().map(|placed| top_speed(placed, body)).fold(f64::INFINITY, f64::min);
-        let change = velocity.norm() + spin.norm() * radius;
+        let change = velocity.norm() + spin.norm() * radius + self.carriers_prediction(half);
         let share = if change > 0.0 { (PREDICTION * speed / change).min(1.0) } else { 0.0 };
         Prediction { velocity: velocity * share, spin: spin * share, share }
     }
@@ -275,7 +277,7 @@ impl Integrator {
         time: f64,
         state: &mut State,
     ) {
-        let force = force + loads.force + loads.gravity * body.inertia.mass;
+        let force = force + loads.pull(&body.inertia);
         let torque = torque + loads.torque;
         state.velocity += self.dynamics.accelerate(&(force * time));
         state.spin += self.dynamics.turn(&state.rotation, &(torque * time));
