@@ -12,7 +12,7 @@ use crate::price::Price;
 use crate::shape::Shape;
 #[cfg(feature = "state")]
 use crate::state::{Fault, not_negative, positive, require};
-use crate::surface::SurfaceLaws;
+use crate::surface::Surface;
 use crate::sweep::{Entry, Span, Swept};
 use crate::toll::{Push, Toll};
 
@@ -69,11 +69,12 @@ struct Taken {
 }
 
 impl ColumnLaw {
-    pub(crate) fn new(shape: &Shape, laws: &SurfaceLaws) -> Self {
+    pub(crate) fn new(shape: &Shape, surface: &Surface) -> Self {
+        let laws = &surface.laws;
         let material = &laws.material;
         let stiffness = match laws.elastic {
             ElasticLaw::Rigid => f64::INFINITY,
-            _ => shape.pieces().iter().map(|p| coefficient(laws, p)).fold(0.0, f64::max),
+            _ => shape.pieces().iter().map(|p| coefficient(surface, p)).fold(0.0, f64::max),
         };
         let shear_hardness = match laws.flow {
             FlowLaw::CapozzaHanley { .. } => Some(material.shear_ratio * material.hardness),

@@ -17,7 +17,7 @@ use crate::node_law::{Motion, heading};
 use crate::shape::Shape;
 #[cfg(feature = "state")]
 use crate::state::{Fault, not_negative, require};
-use crate::surface::{Surface, SurfaceLaws};
+use crate::surface::Surface;
 use crate::sweep::Swept;
 use crate::toll::Toll;
 
@@ -54,9 +54,10 @@ pub(crate) struct Columns {
 }
 
 impl Columns {
-    pub(crate) fn new(shape: &Shape, laws: &SurfaceLaws) -> Self {
+    pub(crate) fn new(shape: &Shape, surface: &Surface) -> Self {
+        let laws = &surface.laws;
         Self {
-            law: ColumnLaw::new(shape, laws),
+            law: ColumnLaw::new(shape, surface),
             damping_ratio: match laws.elastic {
                 ElasticLaw::Rigid => 0.0,
                 _ => damping_ratio(laws.restitution),

@@ -55,7 +55,7 @@ impl Contact {
             });
         }
         Ok(match rigid || (shape.has_faces() && !hertz) {
-            true => Self::Columns(Columns::new(shape, laws)),
+            true => Self::Columns(Columns::new(shape, surface)),
             false => Self::Springs(Patch::new(shape, surface, keeps_ledger)),
         })
     }

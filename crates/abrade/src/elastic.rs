@@ -2,7 +2,7 @@
 
 use crate::laws::{ElasticLaw, HertzConvention};
 use crate::shape::Piece;
-use crate::surface::SurfaceLaws;
+use crate::surface::Surface;
 
 /// A normal law; the coefficient comes with the touched piece.
 pub(crate) trait Elastic: Copy {
@@ -111,16 +111,18 @@ impl HertzNodes {
 /// Range of the calibrated yield overlap H/k_w, in reference radii.
 const CALIBRATED_YIELD: [f64; 2] = [1e-4, 2e-2];
 
-/// The elastic coefficient of `piece` against a surface: k_w [Pa/m], K sqrt(R_eff) [N/m^1.5], or
+/// The elastic coefficient of `piece` against `surface`: k_w [Pa/m], K sqrt(R_eff) [N/m^1.5], or
 /// infinity for `Rigid`.
-pub(crate) fn coefficient(laws: &SurfaceLaws, piece: &Piece) -> f64 {
+pub(crate) fn coefficient(surface: &Surface, piece: &Piece) -> f64 {
+    let laws = &surface.laws;
     let material = &laws.material;
     let young = material.young.unwrap_or(0.0);
     let plane_strain = young / (1.0 - material.poisson * material.poisson);
     match laws.elastic {
         ElasticLaw::Foundation { stiffness: Some(stiffness) } => stiffness,
         ElasticLaw::Foundation { stiffness: None } => {
-            let radius = reference_radius(piece);
+            // On a solid that is smaller than the piece, the contact is as small as the solid.
+            let radius = reference_radius(piece).min(surface.size());
             let pi = std::f64::consts::PI;
             let hertz =
                 16.0 * plane_strain * plane_strain / (9.0 * pi * pi * radius * material.hardness);
@@ -147,5 +149,34 @@ fn reference_radius(piece: &Piece) -> f64 {
     match piece {
         Piece::Ball(ball) => ball.radius,
         Piece::Hull(hull) => (hull.volume() * 0.75 / std::f64::consts::PI).cbrt(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::Material;
+    use crate::mesh::TriangleMesh;
+    use crate::shape::Ball;
+    use crate::surface::SurfaceLaws;
+    use nalgebra::{Point3, Vector3};
+
+    /// Fails for a calibration by the size of a floor on which a small body wears.
+    #[test]
+    fn a_large_body_is_as_stiff_as_one_of_the_size_of_the_solid() {
+        let material = Material {
+            hardness: 1e8,
+            shear_ratio: 0.25,
+            young: Some(2e9),
+            poisson: 0.3,
+            friction: 0.0,
+        };
+        let mesh = TriangleMesh::cuboid(Vector3::repeat(0.01), 0.002).expect("a cube");
+        let cube = Surface::mesh(&mesh, SurfaceLaws::of(material)).expect("a surface");
+        let ball = |radius| Piece::Ball(Ball { centre: Point3::origin(), radius });
+        let size = (8e-6 * 0.75 / std::f64::consts::PI).cbrt();
+        let [floor, same, small] = [1.0, size, 0.5 * size].map(|r| coefficient(&cube, &ball(r)));
+        assert!((floor / same - 1.0).abs() < 1e-9, "{floor:e} {same:e}");
+        assert!((small / same - 2.0).abs() < 1e-9, "{small:e} {same:e}");
     }
 }

@@ -13,7 +13,8 @@ pub enum ElasticLaw {
     Foundation {
         /// k_w [Pa/m]; by default calibrated so that a sphere of the body's reference radius R
         /// carries its Hertz force when its mean pressure is H: 16 E*^2 / (9 pi^2 R H), with the
-        /// yield overlap H/k_w kept within [1e-4, 2e-2] R.
+        /// yield overlap H/k_w kept within [1e-4, 2e-2] R. R is the radius of a ball, or of a ball
+        /// of a hull's volume; of a body larger than the solid that it wears, that of the solid.
         #[cfg_attr(
             feature = "serde",
             serde(default, deserialize_with = "crate::quantity::optional_stiffness")

@@ -24,6 +24,8 @@ pub(crate) struct Meshed {
     pub solid: Solid,
     /// Per node: how far below it the material is its own [m].
     pub reach: Vec<f64>,
+    /// Radius of a ball of its volume [m].
+    pub size: f64,
 }
 
 impl Layout {
@@ -31,7 +33,8 @@ impl Layout {
     pub(crate) fn mesh(nodes: &Nodes, triangles: &[[u32; 3]]) -> Option<Self> {
         let solid = Solid::new(&nodes.rest_position, triangles)?;
         let reach = reaches(nodes, solid.extent());
-        Some(Self::Mesh(Arc::new(Meshed { solid, reach })))
+        let size = solid.size();
+        Some(Self::Mesh(Arc::new(Meshed { solid, reach, size })))
     }
 
     /// Triangles between neighbouring nodes.

@@ -55,7 +55,10 @@ impl Patch {
         let contactors: Vec<_> = shape
             .pieces()
             .iter()
-            .map(|piece| Contactor { piece: piece.clone(), coefficient: coefficient(laws, piece) })
+            .map(|piece| Contactor {
+                piece: piece.clone(),
+                coefficient: coefficient(surface, piece),
+            })
             .collect();
         let inflation = inflation(&laws.elastic);
         Self {

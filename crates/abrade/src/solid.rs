@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 use parry3d_f64::math::Vector as ParryVector;
 use parry3d_f64::query::PointQuery;
-use parry3d_f64::shape::{TriMesh, TriMeshFlags};
+use parry3d_f64::shape::{Shape, TriMesh, TriMeshFlags};
 
 /// The rest shape of a mesh surface.
 #[derive(Clone, Debug)]
@@ -27,6 +27,12 @@ impl Solid {
     /// Diagonal of the box around it [m].
     pub(crate) fn extent(&self) -> f64 {
         self.shape.local_aabb().extents().length()
+    }
+
+    /// Radius of a ball of its volume [m].
+    pub(crate) fn size(&self) -> f64 {
+        let properties = self.shape.mass_properties(1.0);
+        (properties.mass() * 0.75 / std::f64::consts::PI).cbrt()
     }
 
     /// Facets as indices of their corners, counter-clockwise as seen from outside.

@@ -381,6 +381,14 @@ impl Surface {
         }
     }
 
+    /// Radius of a ball of the solid's volume [m]; infinite for a strip.
+    pub(crate) fn size(&self) -> f64 {
+        match &self.layout {
+            Layout::Strip { .. } => f64::INFINITY,
+            Layout::Mesh(meshed) => meshed.size,
+        }
+    }
+
     /// Smallest area of a node [m2].
     pub(crate) fn least_area(&self) -> f64 {
         self.least_area
