@@ -219,6 +219,7 @@ fn a_turning_plate_turns_a_ball_as_a_still_plate_slows_it() {
         let [taken, slowed] = [end.body.state.spin.z, spin.z + still.body.state.spin.z];
         println!("{name}: W {w:.1e} spin {taken:.4} {slowed:.4}");
         assert!(w.abs() < 2e-3 && slowed > 0.1, "{name}: W {w:e}, slowed by {slowed}");
-        assert!((taken / slowed - 1.0).abs() < 1e-2, "{name}: {taken} {slowed}");
+        // The lattice turns below the ball, so that other nodes are met.
+        assert!((taken / slowed - 1.0).abs() < 2e-2, "{name}: {taken} {slowed}");
     }
 }

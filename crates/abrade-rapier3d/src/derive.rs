@@ -87,6 +87,19 @@ fn place(collider: &Collider) -> Isometry3<f64> {
     collider.position_wrt_parent().map_or_else(Isometry3::identity, scalar::pose)
 }
 
+/// A box of the given half extents [m].
+pub(crate) fn cuboid(half: &Vector3<f64>) -> Option<Shape> {
+    let piece = hull(cuboid_vertices(half).into_iter(), &Isometry3::identity()).ok()?;
+    Shape::union(vec![piece]).ok()
+}
+
+/// The shape of a collider about its own origin.
+pub(crate) fn standing(collider: &Collider) -> Option<Shape> {
+    let mut pieces = Vec::new();
+    add_pieces(&mut pieces, collider.shape(), &Isometry3::identity()).ok()?;
+    Shape::union(pieces).ok()
+}
+
 /// A shape that has no wear contact.
 struct NoContact;
 

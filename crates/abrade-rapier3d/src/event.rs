@@ -87,7 +87,7 @@ pub enum Refusal {
         collider: ColliderHandle,
     },
     /// The surface is on a dynamic body that is jointed, has locked axes, or could meet something
-    /// else in the step.
+    /// else in the step; or the body is near another surface besides.
     #[error("the wear surface is on a dynamic body that something else holds or could meet")]
     SurfaceMoves,
     /// A collider of the body is neither a ball, a cuboid, a convex polyhedron nor a compound of

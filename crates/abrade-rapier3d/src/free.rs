@@ -40,22 +40,32 @@ pub(crate) fn reach(lead: &Lead, radius: f64, course: &Course, dt: f64) -> Exten
 }
 
 impl Scene<'_> {
-    /// Why `body` may not be carried on the surfaces `near` it, if one of them is free.
+    /// Why `body` may not be carried on the surfaces `near` it, if one of them is free, or if it
+    /// could meet a free one that has been carried already.
     pub fn bound_by_free(
         &self,
         body: RigidBodyHandle,
         near: &[SurfaceId],
         course: &Course,
     ) -> Option<Refusal> {
+        let own = course.reach(&Isometry3::identity(), self.dt);
+        if self.carried.iter().any(|(_, extent)| extent.meets(&own)) {
+            return Some(Refusal::SurfaceMoves);
+        }
         let (lead, free) = lead(self.lies, near)?;
         let alone = near.len() == 1
             && !self.candidates.contains(&free.body)
-            && !self.carried.contains(&free.body)
             && !self.world.jointed(free.body)
             && self.world.bodies.get(free.body).is_some_and(|rb| {
                 rb.locked_axes().is_empty() && !self.meets(rb, body, &lead, free.body, course)
             });
         (!alone).then_some(Refusal::SurfaceMoves)
+    }
+
+    /// Box around wherever the body `rb` of a free surface may be flung by the body of `course`.
+    pub fn reach_of(&self, rb: &RigidBody, lead: &Lead, course: &Course) -> Extent {
+        let radius = derive::radius(rb, self.world.colliders);
+        reach(lead, radius, course, self.dt)
     }
 
     /// True when something but `body` could meet the body `rb` of a free surface.
@@ -68,8 +78,12 @@ impl Scene<'_> {
         course: &Course,
     ) -> bool {
         let colliders = &*self.world.colliders;
-        let radius = derive::radius(rb, colliders);
-        let track = Track::still(reach(lead, radius, course, self.dt));
+        let reach = self.reach_of(rb, lead, course);
+        let other = |lie: &Lie| lie.lead.and_then(|l| l.free).is_none_or(|f| f.body != free);
+        if self.lies.iter().any(|lie| other(lie) && lie.extent.meets(&reach)) {
+            return true;
+        }
+        let track = Track::still(reach);
         let frame = Isometry3::identity();
         let both = [body, free];
         self.obstacles.in_way(&both, rb.colliders(), &track, &frame, colliders).is_some()

@@ -18,6 +18,8 @@ use crate::{derive, scalar, shadow};
 
 /// Share of its radius by which a body is taken for larger than it is.
 const MARGIN: f64 = 1e-3;
+/// Roundings of its place by which a surface must move in a step to count as moving.
+const ROUNDINGS: f64 = 8.0;
 
 /// A surface where it lies in this step.
 pub(crate) struct Lie {
@@ -40,6 +42,8 @@ pub(crate) struct Lead {
     pub loads: Loads,
     /// Bound of the speed of a node [m/s].
     pub speed: f64,
+    /// It moves by itself: what sleeps in its way must be woken.
+    pub awake: bool,
 }
 
 impl Lie {
@@ -102,12 +106,14 @@ fn lead(
     let mut gain = 0.0;
     if rb.is_dynamic() {
         let gravity = scalar::vector(world.gravity);
-        let inertia = derive::inertia(rb).ok()?;
-        free = Some(Free { body: handle, inertia });
-        loads = self::loads(rb, &gravity, &Isometry3::identity());
-        gain = (loads.gravity.norm() + loads.force.norm() / inertia.mass) * dt;
-        if let Some(tracked) = Tracked::find(tracked, handle) {
-            state = tracked.state(rb);
+        let tracked = Tracked::find(tracked, handle);
+        let registered = tracked.and_then(Tracked::registered).map(|body| body.inertia);
+        state = tracked.map_or(state, |tracked| tracked.state(rb));
+        // A body without a mass goes on as it moves.
+        if let Some(inertia) = registered.or_else(|| derive::inertia(rb).ok()) {
+            free = Some(Free { body: handle, inertia });
+            loads = self::loads(rb, &gravity, &Isometry3::identity());
+            gain = (loads.gravity.norm() + loads.force.norm() / inertia.mass) * dt;
         }
     } else if !rb.is_kinematic() {
         return None;
@@ -121,7 +127,11 @@ fn lead(
     let reach = (nalgebra::center(&extent.low, &extent.high) - state.position).norm()
         + extent.half().norm();
     let speed = state.velocity.norm() + state.spin.norm() * reach + gain;
-    (free.is_some() || speed > 0.0).then_some(Lead { state, free, loads, speed })
+    // What moves by less than its place is rounded by stands still.
+    let place = state.position.coords.norm() + reach;
+    let moves = speed * dt > ROUNDINGS * scalar::ROUNDING * place;
+    let awake = !rb.is_sleeping() && moves;
+    (free.is_some() || moves).then_some(Lead { state, free, loads, speed, awake })
 }
 
 /// The plane below which a body has met the surface for certain: only flat ones at rest have one.
@@ -172,6 +182,11 @@ impl Course {
     /// Radius with its margin [m].
     pub fn radius(&self) -> f64 {
         self.radius
+    }
+
+    /// The course of a point at rest where `state` is.
+    pub fn still(state: &State) -> Self {
+        Self::from_state(State::at(state.position), Vector3::zeros(), 0.0)
     }
 
     /// The course of a body of `radius` [m] from `state`, in the world.

@@ -28,6 +28,9 @@ pub(crate) struct Taken {
     /// Bodies that Rapier keeps in hand, sorted.
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
     held: Vec<((u32, u32), Bearing)>,
+    /// Bodies with the walls that they were carried against.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    walls: Vec<(RigidBodyHandle, ColliderHandle)>,
     /// Proxies with the hooks that the embedder had set on them, sorted by handle.
     proxies: Vec<(ColliderHandle, ActiveHooks)>,
 }
@@ -36,6 +39,16 @@ impl Taken {
     pub fn clear(&mut self) {
         self.bodies.clear();
         self.held.clear();
+        self.walls.clear();
+    }
+
+    /// Takes the pair of a wearing body and a wall.
+    pub fn add_wall(&mut self, body: RigidBodyHandle, wall: ColliderHandle) {
+        self.walls.push((body, wall));
+    }
+
+    fn has_wall(&self, body: Option<RigidBodyHandle>, wall: ColliderHandle) -> bool {
+        self.walls.iter().any(|(own, other)| Some(*own) == body && *other == wall)
     }
 
     pub fn add_held(&mut self, body: RigidBodyHandle, grip: Bearing) {
@@ -121,7 +134,9 @@ impl PhysicsHooks for WearGuard<'_> {
         let proxy1 = self.taken.user_hooks(context.collider1).is_some();
         let proxy2 = self.taken.user_hooks(context.collider2).is_some();
         let taken = proxy1 && self.taken.has_body(context.rigid_body2)
-            || proxy2 && self.taken.has_body(context.rigid_body1);
+            || proxy2 && self.taken.has_body(context.rigid_body1)
+            || self.taken.has_wall(context.rigid_body1, context.collider2)
+            || self.taken.has_wall(context.rigid_body2, context.collider1);
         let pair = [context.collider1, context.collider2];
         let asked = self.user_asked(ActiveHooks::FILTER_CONTACT_PAIRS, context.colliders, pair);
         let lies = |body| self.taken.grip(body).is_some_and(|grip: Bearing| grip.lies);

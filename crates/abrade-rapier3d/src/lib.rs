@@ -73,6 +73,7 @@ mod surface;
 mod track;
 mod tracked;
 mod view;
+mod wall;
 mod world;
 
 pub use error::WearError;

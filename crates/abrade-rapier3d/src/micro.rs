@@ -144,7 +144,7 @@ pub(crate) fn apply(
 }
 
 /// State of the dynamic body that carries one of the surfaces.
-fn carrier(placed: &[Placed<'_>]) -> Option<State> {
+pub(crate) fn carrier(placed: &[Placed<'_>]) -> Option<State> {
     let carriers = placed.iter().filter_map(|placed| placed.carrier.as_ref());
     carriers.filter(|carrier| carrier.inertia.is_some()).map(|carrier| carrier.state).next()
 }

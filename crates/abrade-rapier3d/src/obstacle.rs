@@ -161,22 +161,59 @@ impl Obstacles {
         frame: &Isometry3<f64>,
         colliders: &ColliderSet,
     ) -> Option<ColliderHandle> {
-        let blocked = |number: usize, region: &Extent| {
+        let mut first = None;
+        self.visit(bodies, own, track, frame, colliders, |found| {
+            first = Some(found);
+            false
+        });
+        first
+    }
+
+    /// All of them, in the order of their handles.
+    pub fn all_in_way(
+        &self,
+        bodies: &[RigidBodyHandle],
+        own: &[ColliderHandle],
+        track: &Track,
+        frame: &Isometry3<f64>,
+        colliders: &ColliderSet,
+    ) -> Vec<ColliderHandle> {
+        let mut all = Vec::new();
+        self.visit(bodies, own, track, frame, colliders, |found| {
+            all.push(found);
+            true
+        });
+        all.sort_unstable_by_key(|handle| handle.into_raw_parts());
+        all.dedup();
+        all
+    }
+
+    /// Shows them, slice of time by slice, for as long as `go_on` says so.
+    fn visit(
+        &self,
+        bodies: &[RigidBodyHandle],
+        own: &[ColliderHandle],
+        track: &Track,
+        frame: &Isometry3<f64>,
+        colliders: &ColliderSet,
+        mut go_on: impl FnMut(ColliderHandle) -> bool,
+    ) {
+        let regions = track.slices().iter().enumerate();
+        for (number, region) in regions.filter_map(|(i, region)| Some((i, region.as_ref()?))) {
             let world_box = region.placed_by(frame);
-            let near = self.bins.find(number, &world_box).map(|place| &self.list[place as usize]);
-            let near = near.filter(|o| {
-                o.body.is_none_or(|body| !bodies.contains(&body)) && o.extent.meets(&world_box)
-            });
-            let mut solid = near.filter(|o| {
-                let Some(other) = colliders.get(o.collider) else { return false };
+            for place in self.bins.find(number, &world_box) {
+                let o = &self.list[place as usize];
+                let other = o.body.is_none_or(|body| !bodies.contains(&body));
+                let Some(collider) = colliders.get(o.collider).filter(|_| other) else { continue };
                 let mut own = own.iter().filter_map(|&handle| colliders.get(handle));
-                own.any(|mine| interact(mine, other))
-                    && self.meets(o, number, (region, &world_box), frame, other)
-            });
-            solid.next().map(|o| o.collider)
-        };
-        let mut regions = track.slices().iter().enumerate();
-        regions.find_map(|(number, region)| blocked(number, region.as_ref()?))
+                let meets = o.extent.meets(&world_box)
+                    && own.any(|mine| interact(mine, collider))
+                    && self.meets(o, number, (region, &world_box), frame, collider);
+                if meets && !go_on(o.collider) {
+                    return;
+                }
+            }
+        }
     }
 
     /// Does `region` in `frame`, inside the box of the world, touch the obstacle's collider

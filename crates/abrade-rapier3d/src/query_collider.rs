@@ -31,7 +31,8 @@ impl WearWorld {
     pub const WORN_ONLY: InteractionGroups =
         InteractionGroups::new(Group::NONE, Group::GROUP_32, InteractionTestMode::Or);
 
-    /// The collider that shows `surface` as it is worn now: a height field through its nodes, made
+    /// The collider that shows `surface` as it is worn now: a height field through the nodes of a
+    /// strip, the facets of a solid, made
     /// at the first call, and made anew only when something has worn since the last one. It stands
     /// where the surface lies and has no density. It is a member of group 32 alone and lets no
     /// group in, so it is in no contact pair.

@@ -179,9 +179,9 @@ impl WearWorld {
         };
         let end = body.state;
         self.integrated.push(Integrated { body: handle, end, frame });
-        if let Some((free, end)) = moved {
+        if let Some(((free, extent), end)) = moved {
             self.integrated.push(Integrated { body: free, end, frame });
-            self.current.carried.push(free);
+            self.current.carried.push((free, extent));
         }
         self.obstacles.settle(handle, &track.placed_by(&frame));
         self.book_micro(handle, &advance, &worn, &frame, until);

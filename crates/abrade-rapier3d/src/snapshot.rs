@@ -177,7 +177,14 @@ impl Read {
         let state = tracked.shadow.as_ref().is_none_or(|shadow| shadow.is_sound());
         require(state, "a state is out of range")?;
         let borne = tracked.borne.iter().all(|(id, _)| self.have(&[*id]));
-        let live = tracked.live.as_ref().is_none_or(|live| self.have(&live.surfaces));
+        let live = tracked.live.as_ref().is_none_or(|live| {
+            self.have(&live.surfaces) && live.frame.as_ref().is_none_or(is_frame)
+        });
+        let wall = tracked
+            .against
+            .as_ref()
+            .is_none_or(|against| self.have(&[against.surface]) && against.is_sound());
+        require(wall, "a body strikes a wall that cannot be")?;
         let mut booked = tracked.contact.iter().flat_map(|contact| contact.surfaces());
         let named = borne && live && booked.all(|id| self.have(&[id]));
         require(named, "a body bears on a surface that is not there")?;

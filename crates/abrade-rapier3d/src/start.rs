@@ -28,9 +28,10 @@ pub(crate) struct Scene<'a> {
     pub surfaces: &'a [WornCollider],
     pub lies: &'a [Lie],
     pub obstacles: &'a Obstacles,
-    /// Bodies near a surface, and dynamic bodies of surfaces that were carried in this step.
+    /// Bodies near a surface, and dynamic bodies of surfaces that were carried in this step, with
+    /// boxes around wherever they may have got.
     pub candidates: &'a [RigidBodyHandle],
-    pub carried: &'a [RigidBodyHandle],
+    pub carried: &'a [(RigidBodyHandle, Extent)],
     pub settings: &'a WearSettings,
     /// Length of the step [s].
     pub dt: f64,
@@ -53,8 +54,8 @@ pub(crate) struct Start {
     pub is_new: bool,
     /// A surface moves in the step.
     pub moves: bool,
-    /// The dynamic body that its surface is on.
-    pub free: Option<RigidBodyHandle>,
+    /// The dynamic body that its surface is on, and a box around wherever it may get.
+    pub free: Option<(RigidBodyHandle, Extent)>,
 }
 
 /// How a body is carried through the step.
@@ -106,11 +107,14 @@ impl Scene<'_> {
         let surfaces = known.map_or(&tracked.near, |live| &live.surfaces).clone();
         let Some(&anchor) = surfaces.first() else { return Ok(None) };
         let Some(lie) = Lie::find(self.lies, anchor) else { return Ok(None) };
-        let bounds = gate::floor(lie, &self.surfaces[anchor.0]);
         // Led surfaces move away from the frame in which their encounter began.
         let kept = known.and_then(|live| live.frame);
         let moves = surfaces.iter().any(|id| Lie::find(self.lies, *id).is_some_and(Lie::moves));
         let frame = kept.unwrap_or(lie.pose);
+        let bounds = match frame == lie.pose {
+            true => gate::floor(lie, &self.surfaces[anchor.0]),
+            false => Extent::NO_FLOOR,
+        };
         let mut course = Course::of(rb, tracked, &scalar::vector(self.world.gravity));
         course.surfaces_speed = gate::top_speed(self.lies, &surfaces);
         let mut state = shadow::read(rb, tracked.shadow.as_ref(), &frame);
@@ -127,7 +131,10 @@ impl Scene<'_> {
         if let Some(refusal) = self.bound_by_free(body, &surfaces, &course) {
             return Err(refusal.into());
         }
-        let free = free::lead(self.lies, &surfaces).map(|(_, free)| free.body);
+        let free = free::lead(self.lies, &surfaces).and_then(|(lead, free)| {
+            let rb = self.world.bodies.get(free.body)?;
+            Some((free.body, self.reach_of(rb, &lead, &course)))
+        });
         Ok(Some(Start { body, surfaces, frame, bounds, state, course, is_new, moves, free }))
     }
 

@@ -12,7 +12,7 @@ use crate::glance::Span;
 use crate::guard::WearGuard;
 use crate::observer::WearObserver;
 use crate::settings::StepReport;
-use crate::surface::WornCollider;
+use crate::surface::{SurfaceId, WornCollider};
 use crate::tracked::Tracked;
 use crate::view::WorldView;
 use crate::world::{Current, WearWorld};
@@ -74,6 +74,10 @@ impl WearWorld {
         if !self.surfaces.is_empty() && self.current.dt > 0.0 {
             world.join_new_articulations();
             self.choose(&mut world, &gravity);
+            if let Some(reach) = self.reach_of_solids(&world) {
+                let joined = self.current.reach.map_or(reach, |others| others.joined(&reach));
+                self.current.reach = Some(joined);
+            }
             self.collect_obstacles(&world);
             let single = self.single_registered(world.bodies);
             self.candidates
@@ -90,6 +94,7 @@ impl WearWorld {
                 };
                 self.resolve(self.candidates[at], &world, until, observer);
             }
+            self.strike_walls(&world);
             let may_wake = !self.sleepers.is_empty();
             if may_wake || !self.held.is_empty() {
                 self.before.note(&world, &self.bodies, &self.held, may_wake);
@@ -211,8 +216,12 @@ impl WearWorld {
         for &handle in &picked {
             let Some(rb) = world.bodies.get(handle) else { continue };
             if gate::may_wake(rb) {
-                self.look_at_sleeper(handle, rb, world.colliders, gravity);
+                let struck = self.look_at_sleeper(handle, rb, world.colliders, gravity);
+                if let Some(rb) = world.bodies.get_mut(handle).filter(|_| struck) {
+                    rb.wake_up(true);
+                }
             }
+            let Some(rb) = world.bodies.get(handle) else { continue };
             if !gate::takes_part(rb) {
                 continue;
             }
@@ -233,14 +242,15 @@ impl WearWorld {
         self.picked = picked;
     }
 
-    /// Takes note of a body that sleeps on a surface: something may wake it in the step.
+    /// Takes note of a body that sleeps on a surface: something may wake it in the step. True for one
+    /// that a surface on the move comes near.
     fn look_at_sleeper(
         &mut self,
         handle: RigidBodyHandle,
         rb: &RigidBody,
         colliders: &ColliderSet,
         gravity: &Vector3<f64>,
-    ) {
+    ) -> bool {
         let surfaces = &self.surfaces;
         let tracked = Tracked::slot(&mut self.bodies, handle);
         let course = Course::of(rb, tracked, gravity);
@@ -250,6 +260,8 @@ impl WearWorld {
         if may_hold && !tracked.near.is_empty() && tracked.derive(rb, colliders).is_ok() {
             self.sleepers.push(handle);
         }
+        let lead = |id: &SurfaceId| Lie::find(&self.lies, *id)?.lead;
+        tracked.near.iter().filter_map(lead).any(|lead| lead.awake)
     }
 
     /// Makes a body a candidate if it comes near a surface, else ends its encounter.

@@ -18,6 +18,7 @@ use crate::resolver::Resolver;
 use crate::shadow::{self, Shadow};
 use crate::surface::{SurfaceId, WornCollider};
 use crate::track::Track;
+use crate::wall::Against;
 
 /// Periods on its springs for which a contact may be a blow.
 const BLOW: f64 = 20.0;
@@ -35,6 +36,8 @@ pub(crate) struct Tracked {
     pub radius: f64,
     pub shadow: Option<Shadow>,
     pub live: Option<Live>,
+    /// Its encounter with a wall, on which its own surface wears.
+    pub against: Option<Against>,
     /// The contact that is open: totals since it began.
     pub contact: Option<Contact>,
     /// Springs kept by Lockstep, and the surfaces they are on.
@@ -91,6 +94,7 @@ impl Tracked {
             radius: 0.0,
             shadow: None,
             live: None,
+            against: None,
             contact: None,
             wearer: None,
             pressing: Vec::new(),
@@ -239,7 +243,9 @@ impl Tracked {
     ) {
         *closed += self.end(events);
         self.let_go(surfaces, closed);
-        Contact::end(&mut self.contact, self.handle, events);
+        if self.against.is_none() {
+            Contact::end(&mut self.contact, self.handle, events);
+        }
     }
 
     /// Lets go of what the resolvers other than Micro kept.
@@ -247,6 +253,11 @@ impl Tracked {
         self.let_go_but(&[], surfaces, closed);
         (self.wearer, self.friction) = (None, 0.0);
         self.borne.clear();
+    }
+
+    /// Ends the contact that is open.
+    pub fn end_contact(&mut self, events: &mut Vec<WearEvent>) {
+        Contact::end(&mut self.contact, self.handle, events);
     }
 
     /// Books a step of its contact.
@@ -274,6 +285,11 @@ impl Tracked {
             Known::Ready(body) => Some(body),
             Known::Unseen | Known::Refused(_) => None,
         }
+    }
+
+    /// The body that the embedder has registered.
+    pub fn registered(&self) -> Option<&Body> {
+        self.body().filter(|_| self.registered)
     }
 
     /// The entry of `handle` among all.

@@ -92,8 +92,9 @@ pub(crate) struct Current {
     pub failure: Option<WearError>,
     /// Box around wherever bodies near a surface may get.
     pub reach: Option<Extent>,
-    /// Dynamic bodies whose surfaces have been struck: they were carried with what struck them.
-    pub carried: Vec<RigidBodyHandle>,
+    /// Dynamic bodies whose surfaces have been struck, which were carried with what struck them,
+    /// and boxes around wherever they may have got.
+    pub carried: Vec<(RigidBodyHandle, Extent)>,
 }
 
 impl WearWorld {
@@ -171,6 +172,7 @@ impl WearWorld {
         let mut sum = self.closed;
         for tracked in self.bodies.iter().flatten() {
             tracked.live.iter().for_each(|live| sum += *live.encounter.ledger());
+            tracked.against.iter().for_each(|against| sum += *against.encounter.ledger());
             tracked.pressing.iter().for_each(|pressing| sum += *pressing.ledger());
         }
         self.driven.iter().for_each(|driven| sum += *driven.ledger());

@@ -12,11 +12,12 @@ use crate::carried::Grip;
 use crate::encounter::{Loads, Placed};
 use crate::error::PhysicsError;
 use crate::integrate::Integrator;
+use crate::node_law::Motion;
 use crate::projection::Change;
 use crate::rotation::Dynamics;
 use crate::surface::Surface;
 use crate::toll::Push;
-use crate::trial::Trial;
+use crate::trial::{Course, Trial};
 
 /// A body that carries a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +45,8 @@ pub(crate) struct Ride {
     pub turn: Vector3<f64>,
     /// Of the surface's frame, half-way.
     middle: UnitQuaternion<f64>,
+    /// Impulse that placed the end of the step ahead of the balance [N s].
+    predicted: f64,
 }
 
 /// What one contact did to the body in a trial, about its centre of mass.
@@ -116,6 +119,12 @@ impl Carrier {
         })
     }
 
+    /// Angular acceleration by its torque [1/s2]; zero for a led one.
+    fn twisting(&self) -> f64 {
+        let dynamics = self.inertia.as_ref().and_then(|inertia| Dynamics::new(inertia, false));
+        dynamics.map_or(0.0, |dynamics| dynamics.agility() * self.loads.torque.norm())
+    }
+
     /// Kinetic energy [J]; zero for a led one.
     pub(crate) fn kinetic_energy(&self) -> f64 {
         self.inertia.as_ref().map_or(0.0, |inertia| inertia.kinetic_energy(&self.state))
@@ -131,12 +140,12 @@ impl Carrier {
         let turn = self.state.spin.norm();
         let arm = (state.position - self.state.position).norm();
         let relative = (state.velocity - velocity_at(&self.state, state)).norm();
-        loads + TURNING * turn * (turn * arm + 2.0 * relative)
+        loads + self.twisting() * arm + TURNING * turn * (turn * arm + 2.0 * relative)
     }
 }
 
 /// Growth of the inertial forces over a flight step, and the angle [rad] that bounds it.
-const TURNING: f64 = 1.3;
+const TURNING: f64 = 2.0;
 const FLIGHT_TURN: f64 = 0.1;
 
 /// Impulses as a grip.
@@ -169,17 +178,20 @@ impl Ride {
         }
     }
 
-    /// Velocity and spin of the body over the step as seen from the surface, in its frame half-way.
-    pub(crate) fn relative(
-        &self,
-        [from, to]: [&State; 2],
-        velocity: &Vector3<f64>,
-        spin: &Vector3<f64>,
-    ) -> [Vector3<f64>; 2] {
+    /// The motion of a body on `course` over the step as seen from the surface, in its frame
+    /// half-way.
+    pub(crate) fn relative(&self, [from, to]: [&State; 2], course: Course) -> Motion {
+        let Course { velocity, spin, dt } = course;
         let arm =
             nalgebra::center(&from.position, &to.position) - (self.end.position - 0.5 * self.shift);
         let velocity = velocity - self.velocity - self.spin.cross(&arm);
-        [velocity, spin - self.spin].map(|v| self.middle.inverse_transform_vector(&v))
+        let local = |v: Vector3<f64>| self.middle.inverse_transform_vector(&v);
+        Motion {
+            velocity: local(velocity),
+            spin: local(spin - self.spin),
+            drag: local(-self.spin),
+            dt,
+        }
     }
 
     /// The frame half-way, for what columns do over the step.
@@ -196,6 +208,12 @@ impl Integrator {
             self.mounts.push(placed.carrier.as_ref().map(Carrier::dynamics).transpose()?);
         }
         self.hands.resize(surfaces.len(), Hand::default());
+        for (hand, mount) in self.hands.iter_mut().zip(&self.mounts) {
+            // What a surface did while it stood still is not known.
+            if mount.is_none() {
+                *hand = Hand::default();
+            }
+        }
         Ok(())
     }
 
@@ -299,9 +317,11 @@ impl Integrator {
         let rides = self.rides.iter_mut().zip(&self.answers);
         let free = rides.filter_map(|(ride, answer)| {
             let ride = ride.as_mut().filter(|ride| !ride.dynamics.is_immovable())?;
-            Some((ride, strength(answer)))
+            let strength = strength(answer) + ride.predicted;
+            Some((ride, strength))
         });
-        let Some((ride, _)) = free.max_by(|a, b| a.1.total_cmp(&b.1)) else { return 0.0 };
+        let most = free.max_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((ride, _)) = most.filter(|(_, strength)| *strength > 0.0) else { return 0.0 };
         let turn = ride.dynamics.turn(&ride.end.rotation, &-ahead);
         let gained = -ride.dynamics.work(&ahead, &(ride.end.spin + 0.5 * turn));
         ride.end.spin += turn;
@@ -349,6 +369,11 @@ impl Integrator {
         });
         let most = moving.max_by(|a, b| a.0.force.norm().total_cmp(&b.0.force.norm()));
         let Some((grip, dynamics, carrier)) = most else { return Default::default() };
+        let moved: Vector3<f64> = self.hands.iter().map(|hand| hand.total().force).sum();
+        if grip.force.norm() < (self.pull.force - moved).norm() {
+            // It leans more on surfaces at rest.
+            return Default::default();
+        }
         let state = &carrier.state;
         let arm = body.state.position - state.position;
         let back = reaction(&grip, &body.state, state);
@@ -371,17 +396,21 @@ impl Integrator {
         trial.omega(&self.dynamics, self.rides.iter().flatten().map(of).fold(0.0, f64::max))
     }
 
-    /// Makes the last trial the state of the carriers.
-    pub(crate) fn arrive(&mut self, surfaces: &mut [Placed<'_>], dt: f64) {
+    /// Makes the last trial the state of the carriers; returns what their damping took [J].
+    pub(crate) fn arrive(&mut self, surfaces: &mut [Placed<'_>], dt: f64) -> f64 {
+        let mut damped = 0.0;
         for (placed, ride) in surfaces.iter_mut().zip(&self.rides) {
             let (Some(carrier), Some(ride)) = (&mut placed.carrier, ride) else { continue };
             carrier.state = ride.end;
             placed.pose = ride.pose;
             if carrier.inertia.is_some() {
+                let before = carrier.kinetic_energy();
                 carrier.state.velocity /= 1.0 + dt * carrier.loads.linear_damping;
                 carrier.state.spin /= 1.0 + dt * carrier.loads.angular_damping;
+                damped += before - carrier.kinetic_energy();
             }
         }
+        damped
     }
 }
 
@@ -416,6 +445,7 @@ fn depart(
         shift: Vector3::zeros(),
         turn: Vector3::zeros(),
         middle: placed.pose.rotation,
+        predicted: hand.swept.force.norm() * 0.5 * dt,
     };
     let mut state = start;
     ride.kick(&reaction(&hand.springs, body, &start), &carrier.loads, 0.5 * dt, &mut state);

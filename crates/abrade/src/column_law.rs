@@ -51,6 +51,8 @@ pub(crate) struct Step<'a> {
 pub(crate) struct Cut {
     /// The column, by its place in the list.
     pub index: u32,
+    /// The body left the spring sideways.
+    pub lost: bool,
     /// Solid that the body swept.
     pub pieces: Pieces,
     /// Share of their length swept sideways, and the sine of the angle of attack.
@@ -107,7 +109,7 @@ impl ColumnLaw {
             let stored = self.stored(slot.area, column.squeeze);
             toll.elastic -= stored;
             toll.lost += stored;
-            return (column.squeeze > 0.0).then(Cut::default);
+            return (column.squeeze > 0.0).then(|| Cut { lost: true, ..Cut::default() });
         };
         // With springs the body sweeps as if lifted by the yield overlap.
         let (low, high) = (span.low + self.yield_overlap, span.high + self.yield_overlap);

@@ -13,7 +13,7 @@ use crate::column::Column;
 use crate::column_law::{ColumnLaw, Cut, Step};
 use crate::damping::{Damping, Dashpots, damping_ratio};
 use crate::laws::ElasticLaw;
-use crate::node_law::{Motion, heading};
+use crate::node_law::Motion;
 use crate::shape::Shape;
 #[cfg(feature = "state")]
 use crate::state::{Fault, not_negative, require};
@@ -169,9 +169,9 @@ impl Columns {
                 continue;
             }
             let slot = &self.candidates.slots[index];
-            if slot.n != normal {
+            if slot.n != normal || motion.drag != Vector3::zeros() {
                 normal = slot.n;
-                step.heading = heading(&motion.velocity, &normal);
+                step.heading = motion.heading(&(slot.x - step.middle), &normal);
             }
             step.own = own(surface, slot);
             let cut = self.law.sweep(&step, slot, &self.columns[index], &mut self.toll);
@@ -185,6 +185,9 @@ impl Columns {
         for cut in &self.cuts {
             let index = cut.index as usize;
             let (slot, before) = (&self.candidates.slots[index], self.columns[index].squeeze);
+            if cut.lost {
+                continue;
+            }
             let own = f64::INFINITY;
             let Some(span) = self.swept.span(&slot.x, &slot.n, own) else { continue };
             if before != 0.0 || cut.squeeze != 0.0 {

@@ -81,7 +81,8 @@ pub enum Until {
     #[default]
     Duration,
     /// At the first instant after contact at which the whole body is above every undeformed
-    /// surface, or its kinetic energy is below 1e-9 of what it was before the contact.
+    /// surface, or its kinetic energy over the surface is below 1e-9 of what it was before the
+    /// contact.
     FirstExit,
 }
 
@@ -171,8 +172,11 @@ impl Encounter {
         self.integrator.in_contact()
     }
 
-    /// Largest overlap of a node with `body` [m].
+    /// Largest overlap of a node with `body` [m]; zero on surfaces that it was not made with.
     pub fn overlap(&mut self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
+        if self.integrator.fits(surfaces).is_err() {
+            return 0.0;
+        }
         self.integrator.overlaps(body, surfaces).fold(0.0, f64::max)
     }
 

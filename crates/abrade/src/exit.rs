@@ -63,7 +63,14 @@ impl Integrator {
     pub(crate) fn has_stopped(&self, body: &Body, surfaces: &[Placed<'_>]) -> bool {
         self.touched
             && self.contacts.iter().all(Contact::is_rigid)
-            && relative_energy(body, surfaces) < STOPPED * self.energy_before
+            && self.relative_energy(body, surfaces) < STOPPED * self.energy_before
+    }
+
+    /// Kinetic energy of a body over the material that it leans on most [J].
+    pub(crate) fn relative_energy(&self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
+        let [below, _] = self.motion_below(body, surfaces);
+        let velocity = body.state.velocity - below;
+        body.inertia.kinetic_energy(&State { velocity, ..body.state })
     }
 
     pub(crate) fn end_contact(&mut self, surfaces: &mut [Placed<'_>]) {
@@ -101,10 +108,4 @@ pub(crate) fn engulfed(placed: &Placed<'_>, state: &State) -> Result<(), Physics
     let local = placed.pose.inverse_transform_point(&state.position);
     let depth = placed.surface.depth_of(&local);
     if depth > 0.0 { Err(PhysicsError::Engulfed { depth }) } else { Ok(()) }
-}
-
-/// Least kinetic energy of a body as a surface sees it [J].
-pub(crate) fn relative_energy(body: &Body, surfaces: &[Placed<'_>]) -> f64 {
-    let energy = |placed: &Placed<'_>| body.inertia.kinetic_energy(&placed.sees(&body.state));
-    surfaces.iter().map(energy).fold(f64::INFINITY, f64::min)
 }

@@ -1,10 +1,10 @@
 //! Flight between contacts: how long a body may move before it can touch a node.
 
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 
 use crate::body::{Body, State};
 use crate::contact::Contact;
-use crate::extent::bounds;
+use crate::extent::{bounds, clearance};
 use crate::shape::Piece;
 use crate::surface::Surface;
 
@@ -24,7 +24,11 @@ pub(crate) fn free_time(
     if apart > 0.0 {
         return apart;
     }
-    let speed = local.velocity.norm() + local.spin.norm() * turning_reach(body);
+    let mut speed = local.velocity.norm() + local.spin.norm() * turning_reach(body);
+    if let Some((centre, radius)) = surface.ball() {
+        let velocity = local.velocity + local.spin.cross(&(centre - local.position));
+        speed = speed.min(velocity.norm() + local.spin.norm() * radius);
+    }
     let patch = match contact {
         Contact::Springs(patch) => patch,
         // Over a flat surface the box of the nodes says all.
@@ -48,9 +52,28 @@ pub(crate) fn box_time(
     acceleration: f64,
     inflation: f64,
 ) -> f64 {
+    if let Some((centre, radius)) = surface.ball() {
+        return ball_time(body, local, &centre, radius, acceleration);
+    }
     let turning = local.spin.norm() * turning_reach(body);
     let time = |(gap, approach)| time_to_close(gap, approach + turning, acceleration);
     gaps(surface, body, local, inflation).map(time).into_iter().fold(0.0, f64::max)
+}
+
+/// Time until the body can come into the ball around a solid [s]. Where it is large beside the
+/// solid, only what is near counts: within twice the ball.
+fn ball_time(
+    body: &Body,
+    local: &State,
+    centre: &Point3<f64>,
+    radius: f64,
+    acceleration: f64,
+) -> f64 {
+    let gap = clearance(&body.shape, local, centre) - radius;
+    let velocity = local.velocity + local.spin.cross(&(centre - local.position));
+    let near = velocity.norm() + local.spin.norm() * 2.0 * radius;
+    let whole = local.velocity.norm() + local.spin.norm() * turning_reach(body);
+    time_to_close(gap.min(radius), near.min(whole), acceleration)
 }
 
 /// Largest gap between the box around the body and the box around the nodes [m]; negative when

@@ -218,7 +218,8 @@ mod tests {
         };
         // Pressed in by 10 mm in one step from touch; the hardness allows 1 mm of overlap.
         let query = ball(Point3::new(0.0, 0.0, 0.99));
-        let motion = Motion { velocity: -Vector3::z(), spin: Vector3::zeros(), dt: 0.01 };
+        let zero = Vector3::zeros();
+        let motion = Motion { velocity: -Vector3::z(), spin: zero, drag: zero, dt: 0.01 };
         let answer =
             resolve(&flow, &mut node(&query, Point3::origin()), &Spring::default(), &motion);
         let spring = answer.expect("a contact").spring;

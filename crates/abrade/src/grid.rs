@@ -25,7 +25,8 @@ impl Grid {
         }
         let mut cell = cell;
         let mut dims = dims_of(&low, &high, cell);
-        while dims.iter().product::<usize>() > points.len().max(8) {
+        let cells = |dims: &[usize; 3]| dims.iter().map(|&n| n as f64).product::<f64>();
+        while cells(&dims) > points.len().max(8) as f64 {
             cell *= 1.5;
             dims = dims_of(&low, &high, cell);
         }
@@ -93,7 +94,7 @@ impl Grid {
 }
 
 fn dims_of(low: &Point3<f64>, high: &Point3<f64>, cell: f64) -> [usize; 3] {
-    std::array::from_fn(|a| ((high[a] - low[a]) / cell) as usize + 1)
+    std::array::from_fn(|a| (((high[a] - low[a]) / cell) as usize).saturating_add(1))
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use crate::candidates::Slot;
 use crate::elastic::Elastic;
 use crate::flow::Flow;
 use crate::ledger::Ledger;
-use crate::node_law::{Answer, Motion, NodeStep, STEEP, Spring, heading, resolve, stored};
+use crate::node_law::{Answer, Motion, NodeStep, STEEP, Spring, resolve, stored};
 use crate::query::Query;
 
 /// Laws, body and motion of a step.
@@ -81,6 +81,8 @@ impl<E: Elastic, F: Flow, Q: Query> InnerLoop<'_, E, F, Q> {
             heading: Vector3::zeros(),
             trial_stretch: Vector3::zeros(),
         };
+        let zero = Vector3::zeros();
+        let turns = self.motion.drag != zero;
         for (slot, (old, new)) in slots.iter().zip(old.iter().zip(new)) {
             if !self.query.near(&slot.x) {
                 if old.overlap > 0.0 {
@@ -90,9 +92,10 @@ impl<E: Elastic, F: Flow, Q: Query> InnerLoop<'_, E, F, Q> {
                 new.release();
                 continue;
             }
-            if slot.n != node.n {
+            if slot.n != node.n || turns {
                 node.n = slot.n;
-                node.heading = heading(&self.motion.velocity, &slot.n);
+                let arm = if turns { self.query.touch(&slot.x, &slot.n).arm } else { zero };
+                node.heading = self.motion.heading(&arm, &slot.n);
             }
             (node.x, node.area) = (slot.x, slot.area);
             match resolve(&self.flow, &mut node, old, self.motion) {

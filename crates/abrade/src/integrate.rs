@@ -12,7 +12,7 @@ use crate::contact::Contact;
 use crate::damping::{Damping, Dashpots};
 use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Until};
 use crate::error::PhysicsError;
-use crate::exit::{engulfed, relative_energy};
+use crate::exit::engulfed;
 use crate::flight::{free_time, time_to_close};
 use crate::ledger::Ledger;
 use crate::rotation::Dynamics;
@@ -269,7 +269,7 @@ impl Integrator {
             }
             let trial = self.trial(body, surfaces, loads, dt, flight);
             done.node_evaluations += trial.evaluations;
-            if !trial.is_finite() {
+            if !(trial.is_finite() && self.rides.iter().flatten().all(|r| r.end.is_finite())) {
                 return Err(PhysicsError::NotFinite { time: done.contact_time });
             }
             let omega = self.omega(&trial).max(self.damping.rate);
@@ -283,7 +283,7 @@ impl Integrator {
             }
             if !self.touched && trial.touching > 0 {
                 self.touched = true;
-                self.energy_before = relative_energy(body, surfaces);
+                self.energy_before = self.relative_energy(body, surfaces);
             }
             // A step cut short at a turning point says nothing of the next one.
             self.next_dt = allowed.min(GROWTH * dt.max(self.next_dt.min(allowed)));
@@ -310,20 +310,21 @@ impl Integrator {
         let mut state = end.state;
         state.velocity /= 1.0 + dt * loads.linear_damping;
         state.spin /= 1.0 + dt * loads.angular_damping;
-        self.arrive(surfaces, dt);
+        let damped = self.arrive(surfaces, dt);
         if self.settings.ledger {
             let energy = |state: &State| body.inertia.kinetic_energy(state);
             let weight = loads.pull(&body.inertia);
             let ledger = &mut self.ledger;
             let carried = carriers_energy(surfaces) - carried.unwrap_or_default();
             ledger.kinetic_change += energy(&state) - energy(&before) + carried;
-            ledger.damping += energy(&end.state) - energy(&state) + end.ledger.damping;
+            ledger.damping += energy(&end.state) - energy(&state) + end.ledger.damping + damped;
             ledger.external_work += end.ledger.external_work
                 + weight.dot(&trial.shift)
                 + self.dynamics.work(&loads.torque, &trial.turn);
             if self.dynamics.is_immovable() {
                 // What leads the body holds it against the contact.
-                ledger.external_work -= end.impulse.dot(&before.velocity);
+                ledger.external_work -=
+                    end.impulse.dot(&before.velocity) + end.twist.dot(&before.spin);
             }
             if self.dynamics.is_guided() {
                 // What leads the body takes up the force that its velocity does not show.
@@ -407,10 +408,14 @@ pub(crate) fn rejected(trial: &Trial, dt: f64, allowed: f64) -> Option<f64> {
     }
 }
 
-/// Bound of the speed of any point of the body as the surface sees it [m/s].
+/// Bound of the speed of any point of the body as the surface sees it [m/s], where they can meet:
+/// what lies outside of a solid does not matter to it.
 pub(crate) fn top_speed(placed: &Placed<'_>, body: &Body) -> f64 {
     let [velocity, spin] = placed.relative(&body.state);
-    velocity.norm() + spin.norm() * body.shape.bounding_radius()
+    let fastest = velocity.norm() + spin.norm() * body.shape.bounding_radius();
+    let Some((centre, radius)) = placed.surface.ball() else { return fastest };
+    let arm = placed.pose * centre - body.state.position;
+    fastest.min((velocity + spin.cross(&arm)).norm() + spin.norm() * radius)
 }
 
 /// Bound of the acceleration between body and surface out of contact [m/s2].

@@ -56,9 +56,30 @@ pub(crate) struct Drop {
 /// The body's motion over the step, at mid-step, in the surface's frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Motion {
+    /// Of the centre of mass over the material of the surface, were it so large.
     pub velocity: Vector3<f64>,
+    /// Over the surface: the body's own less that of the surface.
     pub spin: Vector3<f64>,
+    /// The part of it that turns the surface below the body; zero for one that does not turn.
+    pub drag: Vector3<f64>,
     pub dt: f64,
+}
+
+impl Motion {
+    /// v* [m/s]: of a point at `arm` from the centre of mass, whose face has the normal `m`, over
+    /// the surface's material, without what the body's own spin moves it along that face.
+    #[inline(always)]
+    pub(crate) fn advance(&self, arm: &Vector3<f64>, m: &Vector3<f64>) -> Vector3<f64> {
+        let own = (self.spin - self.drag).cross(arm);
+        self.velocity + self.drag.cross(arm) + m * m.dot(&own)
+    }
+
+    /// Unit tangential direction of the body's motion over a node at `arm` from its centre of mass
+    /// with normal `n`; zero at rest.
+    #[inline(always)]
+    pub(crate) fn heading(&self, arm: &Vector3<f64>, n: &Vector3<f64>) -> Vector3<f64> {
+        heading(&(self.velocity + self.drag.cross(arm)), n)
+    }
 }
 
 /// A node in one step, before its drop is known.
@@ -244,7 +265,7 @@ pub(crate) fn resolve<E: Elastic, Q: Query, F: Flow>(
     let advance = Advance {
         // v* splits the advance into its normal and tangential parts: the full material velocity
         // would let spin leak between the gates.
-        step: (motion.velocity + m * m.dot(&turning)) * motion.dt,
+        step: motion.advance(&trial.arm, &m) * motion.dt,
         share,
         was_in_contact,
         overlap_change: trial.overlap - old.overlap,

@@ -37,8 +37,7 @@ impl Price {
             return (shear, 1.0);
         }
         let motion = step.motion;
-        let turning = motion.spin.cross(arm);
-        let split = (motion.velocity + m * m.dot(&turning)) * motion.dt;
+        let split = motion.advance(arm, &m) * motion.dt;
         let down = -split.dot(n) * cosine / entry.displacement;
         let lateral = 1.0 - down.clamp(0.0, 1.0);
         let attack = m.dot(&step.heading).max(0.0);

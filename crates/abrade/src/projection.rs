@@ -49,8 +49,12 @@ impl Change {
 /// Scales the impulse of sweeping faces so that the bodies lose `cost` [J]: b l + a l^2 = -cost.
 /// Where that has no solution they give all that the direction has.
 pub(crate) fn pay(Change { a, b }: Change, cost: f64) -> Payment {
-    if cost <= 0.0 || a <= 0.0 {
+    if cost <= 0.0 {
         return Payment { scale: 0.0, share: 1.0 };
+    }
+    if a <= 0.0 {
+        // Nothing gives way: what leads the bodies pays.
+        return Payment { scale: 1.0, share: 1.0 };
     }
     let discriminant = b * b - 4.0 * a * cost;
     if b < 0.0 && discriminant >= 0.0 {

@@ -90,7 +90,7 @@ pub struct Surface {
     level: Option<Vector3<f64>>,
     layout: Layout,
     pitch: f64,
-    /// Smallest area of a node [m2].
+    /// Area that few nodes are smaller than [m2].
     least_area: f64,
 }
 
@@ -268,7 +268,7 @@ impl Surface {
         Some(Self {
             layout: Layout::mesh(&nodes, triangles)?,
             grid: Grid::new(&nodes.rest_position, 4.0 * pitch),
-            least_area: nodes.rest_area.iter().copied().fold(f64::INFINITY, f64::min),
+            least_area: small_area(&nodes.rest_area),
             nodes,
             leaf: None,
             laws,
@@ -389,7 +389,14 @@ impl Surface {
         }
     }
 
-    /// Smallest area of a node [m2].
+    /// Centre and radius of a ball around the undeformed nodes [m]; None for a strip.
+    pub(crate) fn ball(&self) -> Option<(Point3<f64>, f64)> {
+        let [low, high] = self.bounds();
+        let around = || (nalgebra::center(&low, &high), 0.5 * (high - low).norm());
+        (!self.is_flat()).then(around)
+    }
+
+    /// Area that few nodes are smaller than [m2].
     pub(crate) fn least_area(&self) -> f64 {
         self.least_area
     }
@@ -448,4 +455,16 @@ impl Surface {
     pub fn triangles(&self) -> Vec<[u32; 3]> {
         self.layout.triangles()
     }
+}
+
+/// Share of the nodes of a mesh whose areas may be smaller than what counts as small: a cusp must
+/// not make every contact stiff.
+const FEW: usize = 100;
+
+/// Area that one node in [`FEW`] is smaller than [m2].
+fn small_area(areas: &[f64]) -> f64 {
+    let mut sorted = areas.to_vec();
+    let at = sorted.len() / FEW;
+    let (_, small, _) = sorted.select_nth_unstable_by(at, f64::total_cmp);
+    *small
 }

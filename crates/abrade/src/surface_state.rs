@@ -61,7 +61,7 @@ impl TryFrom<SurfaceState> for Surface {
             LayoutState::Strip { columns_rows, area } => {
                 strip(columns_rows, pitch, area, depth.len(), laws)?
             }
-            LayoutState::Mesh { vertices, triangles } => mesh(vertices, triangles, pitch, laws)?,
+            LayoutState::Mesh { vertices, triangles } => mesh(vertices, triangles, laws)?,
         };
         require(surface.nodes.len() == depth.len(), "a surface lacks nodes")?;
         (surface.worn, surface.gain) = (worn, gain);
@@ -88,11 +88,10 @@ fn strip(
 fn mesh(
     vertices: Vec<Point3<f64>>,
     triangles: Vec<[u32; 3]>,
-    pitch: f64,
     laws: SurfaceLaws,
 ) -> Result<Surface, Fault> {
     let fault = Fault("the mesh of a surface bounds no solid");
     let mesh = TriangleMesh::new(vertices, triangles).map_err(|_| fault)?;
     let nodes: Nodes = mesh.nodes();
-    Surface::closed(nodes, mesh.triangles(), pitch, laws).ok_or(fault)
+    Surface::closed(nodes, mesh.triangles(), mesh.pitch(), laws).ok_or(fault)
 }

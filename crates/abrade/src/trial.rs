@@ -89,6 +89,8 @@ pub(crate) struct Settled {
     pub state: State,
     pub pull: Pull,
     pub impulse: Vector3<f64>,
+    /// Torque of the contacts about the centre of mass over the step [N m s].
+    pub twist: Vector3<f64>,
     /// Stored energy, and increments of the dissipated ones.
     pub ledger: Ledger,
 }
@@ -165,8 +167,10 @@ impl Integrator {
         if !self.rides.is_empty() {
             let momentum = |s: &State| self.dynamics.angular_momentum(&s.rotation, &s.spin);
             if !self.dynamics.is_immovable() {
-                let orbit = (velocity * dt).cross(&kicked.velocity) * body.inertia.mass;
-                self.ahead += orbit + momentum(&state) - momentum(&kicked);
+                self.ahead += (velocity * dt).cross(&kicked.velocity) * body.inertia.mass;
+            }
+            if !body.rotation_locked {
+                self.ahead += momentum(&state) - momentum(&kicked);
             }
         }
         // In flight nothing can be touched, so nothing is asked.
@@ -204,12 +208,22 @@ impl Integrator {
             let ride = self.rides.get(i).and_then(Option::as_ref);
             let pose = ride.map_or(placed.pose, |ride| ride.pose);
             let end = state.seen_from(&pose);
-            contact.cover(placed.surface, &body.shape, &end, reach.min(placed.surface.pitch()));
-            let [velocity, spin] = match ride {
-                None => [velocity, spin].map(|v| placed.pose.inverse_transform_vector(&v)),
-                Some(ride) => ride.relative([&body.state, state], &velocity, &spin),
+            let motion = match ride {
+                None => {
+                    let local = |v: &Vector3<f64>| placed.pose.inverse_transform_vector(v);
+                    let drag = Vector3::zeros();
+                    Motion { velocity: local(&velocity), spin: local(&spin), drag, dt }
+                }
+                Some(ride) => ride.relative([&body.state, state], course),
             };
-            let motion = Motion { velocity, spin, dt };
+            let reach = match ride {
+                None => reach,
+                Some(_) => {
+                    let Motion { velocity, spin, .. } = &motion;
+                    (velocity.norm() + spin.norm() * body.shape.bounding_radius()) * dt
+                }
+            };
+            contact.cover(placed.surface, &body.shape, &end, reach.min(placed.surface.pitch()));
             match contact {
                 Contact::Springs(patch) => {
                     let reaction = patch.trial(placed.surface.laws(), &end, &motion);
@@ -367,7 +381,8 @@ impl Integrator {
             ..Ledger::default()
         };
         let mean = (self.pull.spring_force + springs.force) * (0.5 * dt);
-        Settled { state, pull, impulse: mean + impulse, ledger }
+        let twist = (self.pull.spring_torque + springs.torque) * (0.5 * dt) + torque;
+        Settled { state, pull, impulse: mean + impulse, twist, ledger }
     }
 
     /// Makes a trial the nodes' state; a blocked body takes a `share` of the swept columns.

@@ -10,3 +10,4 @@ mod independence;
 mod query_collider;
 mod rig;
 mod shadow;
+mod wall;

@@ -1,0 +1,249 @@
+//! A dynamic body that wears on what does not: one whose surface is a solid's strikes a fixed
+//! collider, the wall, and its own nodes give way.
+//!
+//! The wall is the striker of the encounter, a body that nothing moves; the body is what carries
+//! the surface. It goes through the step in Micro, if nothing else could come near it.
+
+use abrade::{Body, Encounter, Inertia, Loads, PhysicsError, State, Until};
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+use rapier::dynamics::RigidBodyHandle;
+use rapier::geometry::{Collider, ColliderHandle};
+use rapier::parry::shape::TypedShape;
+
+use crate::booking::Booking;
+use crate::event::Refusal;
+use crate::free;
+use crate::gate::{Course, Lie};
+use crate::micro;
+use crate::path::Extent;
+use crate::surface::SurfaceId;
+use crate::track::Track;
+use crate::tracked::Tracked;
+use crate::view::WorldView;
+use crate::world::{Integrated, WearWorld};
+use crate::{derive, scalar};
+
+/// Reach of the part of a wall that an encounter is made with, in radii of the body.
+const PART: f64 = 6.0;
+
+/// A running encounter of a wearing body with a wall.
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Against {
+    pub surface: SurfaceId,
+    pub encounter: Encounter,
+    wall: ColliderHandle,
+    /// The part of the wall, in `frame`, and where the body may be to meet no other part [m].
+    striker: Body,
+    frame: Isometry3<f64>,
+    low: Point3<f64>,
+    high: Point3<f64>,
+}
+
+/// A wearing body in a step.
+struct Walker {
+    surface: SurfaceId,
+    body: RigidBodyHandle,
+    /// Box around wherever it may get.
+    reach: Extent,
+    radius: f64,
+    pose: Isometry3<f64>,
+}
+
+/// What a solid does beside walls.
+enum Beside {
+    Nothing,
+    Wall(ColliderHandle),
+    Bound(Refusal),
+}
+
+impl WearWorld {
+    /// The boxes around wherever dynamic bodies of solids may get in the step.
+    pub(crate) fn reach_of_solids(&self, world: &WorldView<'_>) -> Option<Extent> {
+        let walkers = self.walkers(world).into_iter().map(|walker| walker.reach);
+        walkers.reduce(|a, b| a.joined(&b))
+    }
+
+    /// Dynamic bodies, awake, whose only solid collider is the proxy of a closed surface.
+    fn walkers(&self, world: &WorldView<'_>) -> Vec<Walker> {
+        let dt = self.current.dt;
+        let walker = |lie: &Lie| {
+            let lead = lie.lead?;
+            let free = lead.free?;
+            let rb = world.bodies.get(free.body).filter(|rb| !rb.is_sleeping())?;
+            let alone = derive::solids(rb, world.colliders, true).count() == 1;
+            let closed = !self.surfaces[lie.id.0].surface.is_flat();
+            let radius = derive::radius(rb, world.colliders);
+            let reach = free::reach(&lead, radius, &Course::still(&lead.state), dt);
+            let (surface, body, pose) = (lie.id, free.body, lie.pose);
+            (alone && closed).then_some(Walker { surface, body, reach, radius, pose })
+        };
+        self.lies.iter().filter_map(walker).collect()
+    }
+
+    /// Takes dynamic bodies of solids through the step that strike nothing but one wall.
+    pub(crate) fn strike_walls(&mut self, world: &WorldView<'_>) {
+        for walker in self.walkers(world) {
+            let beside = self.beside(&walker, world);
+            let Walker { surface, body, .. } = walker;
+            match beside {
+                Beside::Nothing => self.leave_wall(body),
+                Beside::Bound(reason) => {
+                    self.leave_wall(body);
+                    self.refuse(body, surface, reason);
+                }
+                Beside::Wall(wall) => match self.strike_wall(&walker, wall, world) {
+                    Ok(true) => {}
+                    Ok(false) => {
+                        self.leave_wall(body);
+                        self.refuse(body, surface, Refusal::Shape { collider: wall });
+                    }
+                    Err(PhysicsError::StartsInside { .. }) => {
+                        self.leave_wall(body);
+                        self.refuse(body, surface, Refusal::Inside);
+                    }
+                    Err(error) => {
+                        self.leave_wall(body);
+                        self.fail(body, surface, error);
+                    }
+                },
+            }
+        }
+    }
+
+    /// What the body of `walker` could meet.
+    fn beside(&self, walker: &Walker, world: &WorldView<'_>) -> Beside {
+        let Walker { body, reach, .. } = walker;
+        let taken = self.current.carried.iter().any(|(carried, _)| carried == body)
+            || self.candidates.contains(body);
+        let Some(rb) = world.bodies.get(*body).filter(|_| !taken) else { return Beside::Nothing };
+        let (track, frame) = (Track::still(*reach), Isometry3::identity());
+        let own = rb.colliders();
+        let found = self.obstacles.all_in_way(&[*body], own, &track, &frame, world.colliders);
+        let fixed = |collider: &ColliderHandle| {
+            let parent = world.colliders.get(*collider).and_then(Collider::parent);
+            parent.and_then(|handle| world.bodies.get(handle)).is_none_or(|rb| rb.is_fixed())
+        };
+        match *found {
+            [] => Beside::Nothing,
+            _ if world.jointed(*body) => Beside::Bound(Refusal::Jointed),
+            _ if !rb.locked_axes().is_empty() => Beside::Bound(Refusal::LockedAxes),
+            [wall] if fixed(&wall) => Beside::Wall(wall),
+            [collider, ..] => Beside::Bound(Refusal::Obstructed { collider }),
+        }
+    }
+
+    /// Ends the encounter of a body with its wall.
+    fn leave_wall(&mut self, body: RigidBodyHandle) {
+        let tracked = Tracked::slot(&mut self.bodies, body);
+        if let Some(against) = tracked.against.take() {
+            self.closed += *against.encounter.ledger();
+            tracked.end_contact(&mut self.events);
+        }
+    }
+
+    /// Carries a body through the step against a wall; false for a wall of a shape without contact.
+    fn strike_wall(
+        &mut self,
+        walker: &Walker,
+        wall: ColliderHandle,
+        world: &WorldView<'_>,
+    ) -> Result<bool, PhysicsError> {
+        let Walker { surface, body, reach, .. } = walker;
+        let tracked = Tracked::slot(&mut self.bodies, *body);
+        let goes_on = tracked.against.as_ref().is_some_and(|against| {
+            let part = Extent { low: against.low, high: against.high };
+            let inside =
+                (0..3).all(|a| part.low[a] <= reach.low[a] && reach.high[a] <= part.high[a]);
+            inside && against.wall == wall && against.surface == *surface
+        });
+        if !goes_on {
+            self.leave_wall(*body);
+            let Some(against) = self.against(walker, wall, world)? else { return Ok(false) };
+            Tracked::slot(&mut self.bodies, *body).against = Some(against);
+        }
+        let tracked = Tracked::slot(&mut self.bodies, *body);
+        let Some(against) = &mut tracked.against else { return Ok(false) };
+        let frame = against.frame;
+        let seats = micro::seats(&[*surface], &self.lies, &frame);
+        let mut placed = micro::place(&mut self.surfaces, &[*surface], &seats);
+        let (loads, dt) = (Loads::default(), self.current.dt);
+        let Against { striker, encounter, .. } = against;
+        let advance =
+            encounter.advance(striker, &mut placed, &loads, dt, Until::Duration, &mut ())?;
+        let end = micro::carrier(&placed);
+        let touches = encounter.in_contact();
+        let volume = self.surfaces[surface.0].owned().settle().displaced();
+        let impulse = frame * -advance.impulse;
+        let booking = Booking { impulse, contact_time: advance.contact_time, touches };
+        tracked.book(&booking, &[(*surface, volume)], &mut self.events);
+        self.counters.add(&advance);
+        if let Some(end) = end {
+            self.integrated.push(Integrated { body: *body, end, frame });
+            self.current.carried.push((*body, *reach));
+            self.taken.add_wall(*body, wall);
+        }
+        Ok(true)
+    }
+
+    /// A new encounter of a body with the part of a wall around it.
+    fn against(
+        &self,
+        walker: &Walker,
+        wall: ColliderHandle,
+        world: &WorldView<'_>,
+    ) -> Result<Option<Against>, PhysicsError> {
+        let frame = walker.pose;
+        let part = walker.reach.grown(PART * walker.radius);
+        let collider = world.colliders.get(wall);
+        let striker = collider.and_then(|collider| striker(collider, &part, &frame));
+        let Some(striker) = striker else { return Ok(None) };
+        let met = &*self.surfaces[walker.surface.0].surface;
+        let encounter = Encounter::new(&striker, [met], self.settings.encounter())?;
+        let (surface, Extent { low, high }) = (walker.surface, part);
+        Ok(Some(Against { surface, encounter, wall, striker, frame, low, high }))
+    }
+}
+
+/// The part of a wall in the box `part` of the world, as a body in `frame`; boxes and half-spaces
+/// are cut to it.
+fn striker(collider: &Collider, part: &Extent, frame: &Isometry3<f64>) -> Option<Body> {
+    let pose = scalar::pose(collider.position());
+    let (shape, place) = match collider.shape().as_typed_shape() {
+        TypedShape::HalfSpace(half) => {
+            let normal = scalar::vector(half.normal);
+            let turn =
+                UnitQuaternion::rotation_between(&Vector3::z(), &normal).unwrap_or_else(|| {
+                    UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
+                });
+            let size = 2.0 * part.half().norm();
+            let middle = nalgebra::center(&part.low, &part.high);
+            let local = pose.inverse_transform_point(&middle);
+            let below = local - normal * (local.coords.dot(&normal) + size);
+            let place = pose * Isometry3::from_parts(Translation3::from(below.coords), turn);
+            (derive::cuboid(&Vector3::repeat(size))?, place)
+        }
+        TypedShape::Cuboid(cuboid) => {
+            let half = scalar::vector(cuboid.half_extents);
+            let local = part.placed_by(&pose.inverse());
+            let [low, high]: [Vector3<f64>; 2] =
+                [(-half).sup(&local.low.coords), half.inf(&local.high.coords)];
+            if (0..3).any(|a| low[a] >= high[a]) {
+                return None;
+            }
+            let middle = Translation3::from((low + high) / 2.0);
+            (derive::cuboid(&((high - low) / 2.0))?, pose * middle)
+        }
+        _ => (derive::standing(collider)?, pose),
+    };
+    let state = State { rotation: place.rotation, ..State::at(place.translation.vector.into()) };
+    let state = state.seen_from(frame);
+    Some(Body { shape, inertia: Inertia::immovable(), state, rotation_locked: false })
+}
+
+#[cfg(feature = "serde-serialize")]
+impl Against {
+    /// True for a wall in a frame that Rapier's numbers can say.
+    pub fn is_sound(&self) -> bool {
+        crate::snapshot::is_state(&self.striker.state, &self.frame)
+    }
+}
