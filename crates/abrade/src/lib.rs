@@ -43,6 +43,7 @@ mod projection;
 #[cfg(feature = "serde")]
 pub mod quantity;
 mod query;
+mod reweigh;
 mod rotation;
 mod sag;
 mod shape;

@@ -414,7 +414,6 @@ impl Surface {
     }
 
     /// Facets of a mesh.
-    #[cfg(feature = "state")]
     pub(crate) fn facets(&self) -> Option<&[[u32; 3]]> {
         match &self.layout {
             Layout::Strip { .. } => None,

@@ -7,6 +7,7 @@ mod crossing;
 mod error;
 mod lathe;
 mod links;
+pub(crate) mod mass;
 mod mend;
 mod nodes;
 mod predicate;
