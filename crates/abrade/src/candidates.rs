@@ -87,7 +87,7 @@ impl Candidates {
                 let top = surface.grid().bounds()[1].coords.dot(&n) + margin;
                 bounds_below(shape, state, &n, top, margin)
             }
-            None => bounds(shape, state, 2.0 * (margin + surface.worn().max_depth)),
+            None => bounds(shape, state, 2.0 * (margin + surface.deepest)),
         };
         let nodes = surface.nodes();
         self.read(&low, &high);

@@ -237,6 +237,12 @@ impl Columns {
         self.toll.flow.impulse + self.toll.spring.impulse + self.damping
     }
 
+    /// Forgets the columns, of which none stands.
+    pub(crate) fn forget(&mut self) {
+        self.columns.fill(Column::default());
+        self.candidates.forget();
+    }
+
     /// End of a contact: overhangs break off, unpaid.
     pub(crate) fn end_contact(&mut self, surface: &mut Surface) {
         for (slot, column) in self.candidates.slots.iter().zip(&mut self.columns) {

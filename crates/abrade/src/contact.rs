@@ -147,6 +147,14 @@ impl Contact {
         }
     }
 
+    /// Forgets the nodes, once the contact is over.
+    pub(crate) fn forget(&mut self) {
+        match self {
+            Self::Springs(patch) => patch.let_go(),
+            Self::Columns(columns) => columns.forget(),
+        }
+    }
+
     /// End of a contact.
     pub(crate) fn end(&mut self, surface: &mut Surface) {
         if let Self::Columns(columns) = self {

@@ -150,7 +150,8 @@ impl Encounter {
 
     /// Carries `body` through `duration` [s], wearing the surfaces it touches: those that the
     /// encounter was made with, in their order. Surfaces with a carrier move with it: pose and
-    /// state of it end where the call ends.
+    /// state of it end where the call ends. A surface that was renewed since the last call begins
+    /// anew, which takes that the contact was over.
     ///
     /// # Errors
     /// A physical state outside the model's reach; the body and the surfaces are left as they

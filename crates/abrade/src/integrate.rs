@@ -48,8 +48,10 @@ pub(crate) struct Integrator {
     pub(crate) dynamics: Dynamics,
     pub(crate) eta: f64,
     pub(crate) contacts: Vec<Contact>,
-    /// Numbers of nodes of the surfaces that it was made with.
+    /// Numbers of nodes of the surfaces that it was made with, and how often each had been renewed
+    /// when it was last looked at.
     node_counts: Vec<usize>,
+    renewals: Vec<u32>,
     /// Step that the last contact asked for [s]; zero when there is none.
     pub(crate) next_dt: f64,
     /// What the contacts do to the body at the present instant.
@@ -92,10 +94,11 @@ impl Integrator {
         let dynamics = Dynamics::new(&body.inertia, body.rotation_locked).ok_or(
             PhysicsError::Unsupported { what: "the body's mass or inertia is not positive" },
         )?;
-        let (mut contacts, mut node_counts) = (Vec::new(), Vec::new());
+        let (mut contacts, mut node_counts, mut renewals) = (Vec::new(), Vec::new(), Vec::new());
         for surface in surfaces {
             contacts.push(Contact::new(&body.shape, surface, settings.ledger)?);
             node_counts.push(surface.nodes().len());
+            renewals.push(surface.renewals());
         }
         Ok(Self {
             settings,
@@ -106,6 +109,7 @@ impl Integrator {
             dashpots: Dashpots::default(),
             contacts,
             node_counts,
+            renewals,
             next_dt: 0.0,
             pull: Pull::default(),
             touching: false,
@@ -142,15 +146,29 @@ impl Integrator {
         self.settings.step_limit
     }
 
-    /// An error unless these are surfaces of the sizes that it was made with.
-    pub(crate) fn fits(&self, surfaces: &[Placed<'_>]) -> Result<(), PhysicsError> {
+    /// An error unless these are surfaces of the sizes that it was made with. Lets go of those that
+    /// were renewed, which is an error in the middle of a contact.
+    pub(crate) fn fits(&mut self, surfaces: &[Placed<'_>]) -> Result<(), PhysicsError> {
         let counts = surfaces.iter().map(|placed| placed.surface.nodes().len());
-        if counts.eq(self.node_counts.iter().copied()) {
-            return Ok(());
+        if !counts.eq(self.node_counts.iter().copied()) {
+            return Err(PhysicsError::Unsupported {
+                what: "the surfaces are not those that the encounter was made with",
+            });
         }
-        Err(PhysicsError::Unsupported {
-            what: "the surfaces are not those that the encounter was made with",
-        })
+        let contacts = self.contacts.iter_mut().zip(&mut self.renewals).zip(surfaces);
+        for ((contact, renewals), placed) in contacts {
+            if *renewals == placed.surface.renewals() {
+                continue;
+            }
+            if self.touched {
+                return Err(PhysicsError::Unsupported {
+                    what: "a surface was renewed in the middle of a contact",
+                });
+            }
+            contact.forget();
+            *renewals = placed.surface.renewals();
+        }
+        Ok(())
     }
 
     pub(crate) fn advance(
@@ -431,7 +449,8 @@ impl Integrator {
         let steps = positive(accuracy) && positive(self.eta) && self.eta <= ETA_LIMIT;
         require(steps && not_negative(self.next_dt), "the steps of a contact are out of range")?;
         self.dynamics.check()?;
-        let same = self.contacts.len() == self.node_counts.len();
+        let counts = [self.node_counts.len(), self.renewals.len()];
+        let same = counts == [self.contacts.len(); 2];
         let mut pairs = self.contacts.iter().zip(&self.node_counts);
         let within = pairs.all(|(contact, &nodes)| contact.lies_on(nodes));
         require(same && within, "a candidate is no node of its surface")?;

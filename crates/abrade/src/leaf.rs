@@ -121,10 +121,13 @@ impl Changes {
         Some(positions.fold([first; 2], |[low, high], p| [low.inf(&p), high.sup(&p)]))
     }
 
-    /// Writes the changed depths.
-    pub(crate) fn write(&self, depth: &mut [f64]) {
+    /// Writes the changed depths and returns the largest [m].
+    pub(crate) fn write(&self, depth: &mut [f64]) -> f64 {
+        let mut deepest = 0.0f64;
         for (id, new) in &self.depths {
             depth[*id as usize] = *new;
+            deepest = deepest.max(*new);
         }
+        deepest
     }
 }

@@ -43,6 +43,7 @@ mod projection;
 #[cfg(feature = "serde")]
 pub mod quantity;
 mod query;
+mod renewal;
 mod reweigh;
 mod rotation;
 mod sag;
@@ -74,6 +75,7 @@ pub use material::Material;
 pub use mesh::{Mended, MeshError, TriangleMesh};
 pub use nodes::Nodes;
 pub use press::{Hold, Pressed};
+pub use renewal::{RenewError, Renewal};
 pub use shape::{Ball, Piece, Shape};
 pub use surface::{HexStrip, NODE_LIMIT, Surface, SurfaceLaws, Worn};
 pub use union_inertia::{UnionInertia, overlapping_pairs};

@@ -13,6 +13,7 @@ use crate::leaf::{Changes, Leaf};
 use crate::material::Material;
 use crate::mesh::TriangleMesh;
 use crate::nodes::Nodes;
+use crate::renewal::Past;
 #[cfg(feature = "state")]
 use crate::surface_state::SurfaceState;
 
@@ -62,7 +63,7 @@ pub struct Worn {
     pub chip: f64,
     /// Debris, by the surface's removal rule.
     pub removed: f64,
-    /// Largest depth of a node [m].
+    /// Largest depth of a node [m], renewals included.
     pub max_depth: f64,
     /// Largest total force along minus the normals [N].
     pub peak_normal_force: f64,
@@ -80,18 +81,22 @@ pub struct Worn {
 pub struct Surface {
     /// Empty for a leaf, as the grid.
     pub(crate) nodes: Nodes,
-    grid: Grid,
+    pub(crate) grid: Grid,
     leaf: Option<Box<Leaf>>,
+    /// What was worn before the last renewal; None before the first.
+    pub(crate) past: Option<Arc<Past>>,
+    /// Largest depth of a node since the last renewal [m].
+    pub(crate) deepest: f64,
     pub(crate) laws: SurfaceLaws,
     /// What was worn until the last [`Surface::settle`], and since.
     pub(crate) worn: Worn,
     pub(crate) gain: Worn,
     /// The normal of every node, where they agree.
     level: Option<Vector3<f64>>,
-    layout: Layout,
-    pitch: f64,
+    pub(crate) layout: Layout,
+    pub(crate) pitch: f64,
     /// Area that few nodes are smaller than [m2].
-    least_area: f64,
+    pub(crate) least_area: f64,
 }
 
 impl Worn {
@@ -230,6 +235,8 @@ impl Surface {
                 depth: vec![0.0; count],
             },
             leaf: None,
+            past: None,
+            deepest: 0.0,
             laws,
             worn: Worn::default(),
             gain: Worn::default(),
@@ -271,6 +278,8 @@ impl Surface {
             least_area: small_area(&nodes.rest_area),
             nodes,
             leaf: None,
+            past: None,
+            deepest: 0.0,
             laws,
             worn: Worn::default(),
             gain: Worn::default(),
@@ -285,6 +294,8 @@ impl Surface {
             nodes: Nodes::default(),
             grid: Grid::default(),
             leaf: Some(Box::new(Leaf::new(below))),
+            past: below.past.clone(),
+            deepest: below.deepest,
             laws: below.laws.clone(),
             worn: below.worn(),
             gain: Worn::default(),
@@ -304,7 +315,7 @@ impl Surface {
     /// Takes over what a leaf of this surface has worn.
     pub fn apply(&mut self, changes: &Changes) {
         self.settle();
-        changes.write(&mut self.nodes.depth);
+        self.deepest = self.deepest.max(changes.write(&mut self.nodes.depth));
         self.worn += *changes.gain();
     }
 
@@ -332,7 +343,7 @@ impl Surface {
         }
     }
 
-    /// Depth of node `i` [m].
+    /// Depth of node `i` [m], since the last renewal.
     #[inline]
     pub fn depth(&self, i: usize) -> f64 {
         match &self.leaf {
@@ -379,6 +390,11 @@ impl Surface {
             Layout::Strip { .. } => f64::INFINITY,
             Layout::Mesh(meshed) => meshed.reach[i as usize],
         }
+    }
+
+    /// True for the surface of a solid that is no leaf.
+    pub(crate) fn can_be_renewed(&self) -> bool {
+        self.leaf.is_none() && matches!(self.layout, Layout::Mesh(_))
     }
 
     /// Radius of a ball of the solid's volume [m]; infinite for a strip.
@@ -436,13 +452,16 @@ impl Surface {
             }
             Some(leaf) => leaf.sink(id, drop),
         };
+        self.deepest = self.deepest.max(depth);
+        let depth = depth + self.past_depth(id as usize);
         self.gain.max_depth = self.gain.max_depth.max(depth);
     }
 
-    /// W_V [m3] = sum of rest_area * depth (Eq. 6), chips included.
+    /// W_V [m3] = sum of rest_area * depth (Eq. 6), chips included, over all renewals.
     pub fn wear_volume(&self) -> f64 {
         let added = self.leaf.as_ref().map_or(0.0, |leaf| leaf.added_volume());
-        self.nodes().wear_volume() + added
+        let past = self.past.as_ref().map_or(0.0, |past| past.volume);
+        past + self.nodes().wear_volume() + added
     }
 
     /// Corners of the box around the undeformed nodes, in the surface's frame [m].

@@ -1,9 +1,12 @@
 //! A surface as bytes hold it: its lattice or its mesh is laid out anew.
 
+use std::sync::Arc;
+
 use nalgebra::Point3;
 
 use crate::mesh::TriangleMesh;
 use crate::nodes::Nodes;
+use crate::renewal::Past;
 use crate::state::{Fault, finite, not_negative, positive, require};
 use crate::surface::{Surface, SurfaceLaws, Worn};
 
@@ -23,6 +26,7 @@ pub(crate) struct SurfaceState {
     worn: Worn,
     gain: Worn,
     depth: Vec<f64>,
+    past: Option<Past>,
 }
 
 impl From<Surface> for SurfaceState {
@@ -43,6 +47,7 @@ impl From<Surface> for SurfaceState {
             worn: surface.worn,
             gain: surface.gain,
             depth: surface.nodes.depth,
+            past: surface.past.map(Arc::unwrap_or_clone),
         }
     }
 }
@@ -51,7 +56,7 @@ impl TryFrom<SurfaceState> for Surface {
     type Error = Fault;
 
     fn try_from(state: SurfaceState) -> Result<Self, Fault> {
-        let SurfaceState { layout, pitch, laws, worn, gain, depth } = state;
+        let SurfaceState { layout, pitch, laws, worn, gain, depth, past } = state;
         require(positive(pitch), "the pitch of a surface is out of range")?;
         require(laws.check().is_empty(), "the laws of a surface are out of range")?;
         let whole = |w: &Worn| finite(&[w.normal, w.lateral, w.chip, w.removed]);
@@ -64,7 +69,15 @@ impl TryFrom<SurfaceState> for Surface {
             LayoutState::Mesh { vertices, triangles } => mesh(vertices, triangles, laws)?,
         };
         require(surface.nodes.len() == depth.len(), "a surface lacks nodes")?;
+        if let Some(past) = past {
+            let depths = past.depth.iter().all(|&depth| depth.is_finite());
+            let sums = not_negative(past.volume) && past.depth.len() == depth.len();
+            let fine = depths && sums && surface.can_be_renewed();
+            require(fine, "what a surface has worn before it was renewed is out of range")?;
+            surface.past = Some(Arc::new(past));
+        }
         (surface.worn, surface.gain) = (worn, gain);
+        surface.deepest = depth.iter().copied().fold(0.0, f64::max);
         surface.nodes.depth = depth;
         Ok(surface)
     }

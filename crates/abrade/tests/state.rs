@@ -4,7 +4,7 @@
 use abrade::{
     Advance, Ball, Body, Drive, DriveSolution, Driven, ElasticLaw, Encounter, EncounterSettings,
     HertzConvention, HexStrip, Hull, Inertia, Loads, Material, PhysicsError, Piece, Placed,
-    Polyhedron, Shape, State, Surface, SurfaceLaws, Until,
+    Polyhedron, Shape, State, Surface, SurfaceLaws, TriangleMesh, Until,
 };
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use serde::de::DeserializeOwned;
@@ -115,6 +115,26 @@ fn landing(shape: Shape, elastic: ElasticLaw, restitution: f64, step_limit: u64)
     Run { surface, body, contact }
 }
 
+/// A body just above a block that another one has worn, and that was renewed since.
+fn onto_a_renewed_block(step_limit: u64) -> Run<Encounter> {
+    let down = Isometry3::translation(0.0, 0.0, -0.3);
+    let block = TriangleMesh::cuboid(Vector3::new(0.8, 0.7, 0.3), 0.1).expect("a block");
+    let laws = plate(SPRINGS, 1.0).laws().clone();
+    let mut run = landing(Shape::ball(0.5).expect("a ball"), SPRINGS, 1.0, MANY);
+    run.surface = Surface::mesh(&block.moved(&down), laws).expect("a surface");
+    let contact = |run: &Run<Encounter>, step_limit: u64| {
+        let settings = EncounterSettings { ledger: true, step_limit, ..Default::default() };
+        Encounter::new(&run.body, [&run.surface], settings).expect("an encounter")
+    };
+    run.contact = contact(&run, MANY);
+    let body = run.body.clone();
+    run.go(1.5).expect("a blow");
+    run.surface.renew().expect("a renewal");
+    run.body = body;
+    run.contact = contact(&run, step_limit);
+    run
+}
+
 /// A body pressed in and ready to slide.
 fn scratch(solution: DriveSolution, step_limit: u64) -> Run<Driven> {
     let mut surface = plate(SPRINGS, 1.0);
@@ -141,6 +161,9 @@ fn goes_on<E: Carrier>(name: &str, mut run: Run<E>, times: [f64; 2]) {
     assert_eq!(direct, resumed, "{name}");
     assert!(run.bytes() == read.bytes(), "{name}");
     assert_eq!(run.surface.worn(), read.surface.worn(), "{name}");
+    let depths = |s: &Surface| (0..s.nodes().len()).map(|i| s.worn_depth(i)).collect::<Vec<_>>();
+    assert_eq!(depths(&run.surface), depths(&read.surface), "{name}");
+    assert_eq!(run.surface.is_due_for_renewal(), read.surface.is_due_for_renewal(), "{name}");
 }
 
 /// Fails for a state that is left out, or read in another order.
@@ -155,6 +178,11 @@ fn a_run_goes_on_from_its_bytes_to_the_bit() {
             goes_on(name, run, [0.06, 1.5]);
         }
     }
+    let run = onto_a_renewed_block(MANY);
+    assert_eq!(run.surface.renewals(), 1);
+    let worn = |surface: &Surface| (0..surface.nodes().len()).any(|i| surface.worn_depth(i) > 0.0);
+    assert!(worn(&run.surface) && run.surface.worn().max_depth > 0.0);
+    goes_on("renewed block", run, [0.1, 1.5]);
     goes_on("dynamic scratch", scratch(DriveSolution::Dynamic, MANY), [0.3, 0.5]);
     let creep = DriveSolution::QuasiStatic { increment: 0.01 };
     goes_on("creeping scratch", scratch(creep, MANY), [0.3, 0.5]);
@@ -189,6 +217,7 @@ fn damaged_bytes_are_refused_or_can_be_stepped() {
     for (_, shape, elastic) in shapes().into_iter().skip(1).take(3) {
         survives(landing(shape, elastic, 0.5, FEW), 0.06);
     }
+    survives(onto_a_renewed_block(FEW), 0.06);
     survives(scratch(DriveSolution::Dynamic, FEW), 0.1);
     survives(scratch(DriveSolution::QuasiStatic { increment: 0.01 }, FEW), 0.1);
 }

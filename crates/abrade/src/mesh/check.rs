@@ -58,7 +58,7 @@ pub(super) fn bound_count(what: &'static str, count: f64, limit: f64) -> Result<
     }
 }
 
-fn areas(vertices: &[Point3<f64>], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+pub(super) fn areas(vertices: &[Point3<f64>], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
     let mut flat = Tally::default();
     for (facet, corners) in triangles.iter().enumerate() {
         let [a, b, c] = corners.map(|i| vertices[i as usize]);
@@ -135,7 +135,7 @@ fn pinches(
     })
 }
 
-fn orientation(shells: &[Shell]) -> Result<(), MeshError> {
+pub(super) fn orientation(shells: &[Shell]) -> Result<(), MeshError> {
     if shells.iter().any(|shell| !shell.volume.is_finite()) {
         return Err(MeshError::TooLarge);
     }
@@ -147,7 +147,7 @@ fn orientation(shells: &[Shell]) -> Result<(), MeshError> {
     }
 }
 
-fn normals(vertices: &[Point3<f64>], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+pub(super) fn normals(vertices: &[Point3<f64>], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
     let mut lengths = vec![0.0; vertices.len()];
     for corners in triangles {
         let area = nodes::area_vector(vertices, corners).norm();

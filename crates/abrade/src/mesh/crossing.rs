@@ -15,16 +15,28 @@ const THICKNESS: f64 = 1e-3;
 
 /// Fails if two facets cross, touch or overlap. Facets must have an area.
 pub(super) fn check(vertices: &[Point3<f64>], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+    check_some(vertices, triangles, &vec![true; triangles.len()])
+}
+
+/// The same for the pairs with a `chosen` facet alone.
+pub(super) fn check_some(
+    vertices: &[Point3<f64>],
+    triangles: &[[u32; 3]],
+    chosen: &[bool],
+) -> Result<(), MeshError> {
     let boxes: Vec<Aabb> = triangles.iter().map(|t| box_of(&corners(vertices, t))).collect();
     let tree = tree(&boxes);
     let mut found: Option<(usize, usize)> = None;
     let mut count = 0;
-    for (i, near) in boxes.iter().enumerate() {
-        let after = tree.intersect_aabb(near).map(|j| j as usize).filter(|&j| j > i);
+    for (i, near) in boxes.iter().enumerate().filter(|(i, _)| chosen[*i]) {
+        let others = tree.intersect_aabb(near).map(|j| j as usize);
+        let after = others.filter(|&j| j > i || !chosen[j]);
         for j in after.filter(|&j| near.intersects(&boxes[j])) {
             if meet(vertices, &triangles[i], &triangles[j]) {
                 count += 1;
-                found = found.map_or(Some((i, j)), |first| Some(first.min((i, j))));
+                found = found.map_or(Some((i.min(j), i.max(j))), |first| {
+                    Some(first.min((i.min(j), i.max(j))))
+                });
             }
         }
     }

@@ -2,6 +2,7 @@
 //! [`TriangleMesh`] that exists is closed, oriented, manifold and free of self-intersections.
 
 mod boxes;
+mod change;
 mod check;
 mod crossing;
 mod error;
@@ -19,6 +20,7 @@ use nalgebra::{Isometry3, Point3};
 
 pub use error::MeshError;
 pub use mend::Mended;
+pub(crate) use nodes::area_vector;
 
 /// The boundary of a solid, which may have several parts and cavities. Facets run
 /// counter-clockwise as seen from outside the material.
@@ -78,7 +80,7 @@ impl TriangleMesh {
 
     /// Area of the surface [m2].
     pub fn area(&self) -> f64 {
-        self.triangles.iter().map(|t| nodes::area_vector(&self.vertices, t).norm()).sum()
+        self.triangles.iter().map(|t| area_vector(&self.vertices, t).norm()).sum()
     }
 
     /// Corners of the box around the mesh [m].

@@ -6,7 +6,7 @@ use super::TriangleMesh;
 use crate::nodes::Nodes;
 
 /// Half the cross product of two edges: as long as the facet is large [m2], along its normal.
-pub(super) fn area_vector(vertices: &[Point3<f64>], corners: &[u32; 3]) -> Vector3<f64> {
+pub(crate) fn area_vector(vertices: &[Point3<f64>], corners: &[u32; 3]) -> Vector3<f64> {
     let [a, b, c] = corners.map(|i| vertices[i as usize]);
     (b - a).cross(&(c - a)) / 2.0
 }

@@ -8,6 +8,7 @@ mod original;
 mod passes;
 mod patchwork;
 mod relax;
+mod spread;
 
 use super::TriangleMesh;
 use super::check::bound_count;

@@ -100,12 +100,15 @@ pub(super) fn widens(net: &Patchwork, edge: Edge) -> bool {
     worst(&new) > worst(&old) * (1.0 + 1e-9)
 }
 
-fn worst(pair: &[Corners; 2]) -> f64 {
+pub(super) fn worst(pair: &[Corners; 2]) -> f64 {
     shape(&pair[0]).min(shape(&pair[1]))
 }
 
 /// Both facets at an edge, before and after a flip.
-fn diamonds(net: &Patchwork, Edge { a, b, c, d, .. }: Edge) -> ([Corners; 2], [Corners; 2]) {
+pub(super) fn diamonds(
+    net: &Patchwork,
+    Edge { a, b, c, d, .. }: Edge,
+) -> ([Corners; 2], [Corners; 2]) {
     let at = |t: [u32; 3]| t.map(|i| net.points[i as usize]);
     ([at([a, b, c]), at([b, a, d])], [at([a, d, c]), at([d, b, c])])
 }

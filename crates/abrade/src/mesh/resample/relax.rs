@@ -25,7 +25,7 @@ pub(super) fn relax(net: &mut Patchwork, original: &Original) {
 }
 
 /// Where to: the middle of the two neighbours along a chain, or of the facets around.
-fn way(net: &Patchwork, i: u32) -> Option<Vector3<f64>> {
+pub(super) fn way(net: &Patchwork, i: u32) -> Option<Vector3<f64>> {
     let p = net.points[i as usize];
     match net.kind[i as usize] {
         Kind::Fixed => None,
