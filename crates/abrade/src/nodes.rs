@@ -1,5 +1,6 @@
 //! The nodes of a wear surface, as columns. Position, normal and area are fixed; `depth` is the
-//! only column that evolves: a node only ever moves along minus its normal.
+//! only column that evolves: a node only ever moves along minus its normal. A renewal of a closed
+//! surface (`renewal`) begins with new ones.
 
 use nalgebra::{Point3, Vector3};
 

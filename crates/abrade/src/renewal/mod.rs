@@ -90,7 +90,12 @@ impl Surface {
     /// Makes the worn solid the undeformed one. [`Surface::wear_volume`] and [`Surface::worn`] stay
     /// what they are and [`Surface::worn_depth`] goes on; depths begin at zero anew. Nodes keep
     /// their numbers; they and their edges move within the surface where it has worn. What has not
-    /// worn stays as it is. The cost goes with the number of nodes, worn or not.
+    /// worn stays as it is. The cost goes with the number of nodes, worn or not: 7 microseconds for
+    /// each where little has worn, 17 where all has, half of it for facets that might cross. On
+    /// round solids the search for reaches dominates, which looks at all nodes for each.
+    ///
+    /// Blows that sink nodes at edges by more than half a pitch in one epoch, and parts that wear
+    /// thinner than the pitch, can leave a surface that is refused.
     ///
     /// A body in contact stands on springs of the surface as it was: [`crate::Encounter::advance`]
     /// refuses a surface that was renewed before the contact was over.
