@@ -58,14 +58,12 @@ fn surface_text(surface: &SceneSurface, size: &SurfaceSize) -> String {
         Removal::Fraction { .. } => "a fraction removed",
         Removal::AttackAngle { .. } => "removed by attack angle",
     };
-    format!(
-        "{} nodes ({} x {}, {} apart); {flow}, {elastic}, {removal}; {}",
-        size.nodes(),
-        size.columns,
-        size.rows,
-        length(size.pitch),
-        surface.material
-    )
+    let layout = match size.columns_rows {
+        Some([columns, rows]) => format!("{columns} x {rows}, {} apart", length(size.pitch)),
+        None => format!("closed, about {} apart", length(size.pitch)),
+    };
+    let (nodes, material) = (size.nodes, &surface.material);
+    format!("{nodes} nodes ({layout}); {flow}, {elastic}, {removal}; {material}")
 }
 
 fn body_text(body: &SceneBody, solid: &Solid) -> String {

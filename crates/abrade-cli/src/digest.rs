@@ -47,6 +47,7 @@ fn write_digest(
             (Some(restitution), Some(angle)) => {
                 format!("restitution {restitution:.4}, leaves at {angle:.1} deg")
             }
+            (Some(restitution), None) => format!("restitution {restitution:.4}"),
             _ => {
                 let [x, y, z] = body.mean_force;
                 format!("mean force ({x:.4e}, {y:.4e}, {z:.4e}) N")

@@ -1,4 +1,4 @@
-//! Files of a run: summary, history, ParaView files, picture, page.
+//! Files of a run: summary, history, ParaView files, meshes, picture, page.
 //!
 //! Everything here takes `&`: nothing that writes can change a run. Every file appears under its
 //! final name only when it is complete ([`atomic`]). Which files a run writes, and when, is the
@@ -10,6 +10,7 @@ pub mod atomic;
 mod error;
 pub mod history;
 mod mesh;
+pub mod mesh_files;
 pub mod page;
 pub mod picture;
 pub mod pvd;
@@ -20,6 +21,6 @@ pub mod vtp;
 pub use error::{FileAction, ReportError};
 pub use history::History;
 pub use mesh::Mesh;
-pub use picture::{Mark, Picture};
+pub use picture::{Mark, Picture, SolidPicture};
 pub use pvd::Series;
 pub use summary::Summary;

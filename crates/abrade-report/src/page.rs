@@ -18,7 +18,7 @@ pub fn to_html(summary: &Summary, picture: Option<&[u8]>) -> String {
     body.push_str(&warnings(summary));
     if let Some(png) = picture {
         let data = STANDARD.encode(png);
-        let alt = "The worn surface from above, coloured by depth, and a cross-section.";
+        let alt = "The worn surface, coloured by depth.";
         body.push_str(&format!("<img src=\"data:image/png;base64,{data}\" alt=\"{alt}\">\n"));
     }
     let blocks = [surfaces(summary), bodies(summary), energies(summary), run(summary)];

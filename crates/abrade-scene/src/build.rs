@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use crate::check::Checked;
 use crate::place;
-use crate::scene::{Motion, Placement, SceneBody, SceneSurface};
+use crate::scene::{Geometry, Motion, SceneBody, SceneSurface};
 use crate::solid::Solid;
 
 /// A scene, ready to run.
@@ -27,6 +27,34 @@ pub struct BuiltSurface {
     pub surface: Surface,
     /// Its frame in the world.
     pub pose: Isometry3<f64>,
+    /// What the engine has in its place.
+    pub stand_in: StandIn,
+}
+
+/// The undeformed solid below a surface, as simply as a physics engine can have it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StandIn {
+    /// A box whose top is the plate.
+    Plate,
+    /// A ball about the origin of the surface's frame.
+    Ball {
+        /// Radius [m].
+        radius: f64,
+    },
+    /// A box about the origin.
+    Cuboid {
+        /// Half of its edges [m].
+        half_extents: [f64; 3],
+    },
+    /// Everything near a line along z, whose middle is the origin.
+    Capsule {
+        /// Radius [m].
+        radius: f64,
+        /// Half the length of the line [m].
+        half_length: f64,
+    },
+    /// The facets between the nodes.
+    Facets,
 }
 
 /// A checked scene that still cannot be built.
@@ -46,6 +74,23 @@ pub enum BuildError {
         /// Name of the surface or body.
         name: String,
     },
+}
+
+impl StandIn {
+    fn of(geometry: &Geometry) -> Self {
+        match *geometry {
+            Geometry::HexStrip { .. } => Self::Plate,
+            Geometry::Sphere { radius, .. } => Self::Ball { radius },
+            Geometry::Cuboid { half_extents, .. } => Self::Cuboid { half_extents },
+            Geometry::Capsule { radius, length, .. } => {
+                Self::Capsule { radius, half_length: 0.5 * length }
+            }
+            Geometry::Cylinder { .. }
+            | Geometry::Tube { .. }
+            | Geometry::HeightField { .. }
+            | Geometry::Mesh { .. } => Self::Facets,
+        }
+    }
 }
 
 impl Checked {
@@ -75,7 +120,6 @@ impl Checked {
     ) -> Result<BuiltSurface, BuildError> {
         let unchecked = || BuildError::Unchecked { name: name.to_owned() };
         let material = self.scene.materials.get(&surface.material).ok_or_else(unchecked)?;
-        let strip = place::strip(&surface.geometry).ok_or_else(unchecked)?;
         let pose = place::frame(surface).ok_or_else(unchecked)?;
         let laws = SurfaceLaws {
             material: material.clone(),
@@ -84,15 +128,23 @@ impl Checked {
             removal: surface.removal.clone(),
             restitution: surface.restitution,
         };
-        let surface = Surface::hex_strip(strip, laws)
-            .map_err(|error| BuildError::Surface { name: name.to_owned(), error })?;
-        Ok(BuiltSurface { surface, pose })
+        let stand_in = StandIn::of(&surface.geometry);
+        let surface = match self.meshes.get(name) {
+            Some(mesh) => Surface::mesh(mesh, laws),
+            None => {
+                let strip = place::strip(&surface.geometry).ok_or_else(unchecked)?;
+                Surface::hex_strip(strip, laws)
+            }
+        };
+        let surface =
+            surface.map_err(|error| BuildError::Surface { name: name.to_owned(), error })?;
+        Ok(BuiltSurface { surface, pose, stand_in })
     }
 
     fn build_body(&self, body: &SceneBody, solid: &Solid) -> Option<Body> {
-        let surface = match &body.position {
-            Placement::OnSurface { surface, .. } => Some(self.scene.surfaces.get(surface)?),
-            Placement::At { .. } => None,
+        let surface = match body.position.surface() {
+            Some(name) => Some(self.scene.surfaces.get(name)?),
+            None => None,
         };
         let local = place::local_state(body, solid, surface)?;
         let state = match surface {

@@ -2,14 +2,16 @@
 //! names, geometry, and what is not available yet.
 
 mod body;
+mod closed;
 mod motion;
+mod placement;
 mod run;
 mod surface;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use abrade::ParameterError;
+use abrade::{ParameterError, TriangleMesh};
 
 use crate::patched::Patched;
 use crate::problem::{Mark, Problem, Source, any_of, suggestion};
@@ -26,6 +28,8 @@ pub struct Checked {
     pub folder: PathBuf,
     /// Geometry and inertia of each body.
     pub solids: BTreeMap<String, Solid>,
+    /// Meshes of the closed surfaces, by name; their vertices are the nodes.
+    pub meshes: BTreeMap<String, TriangleMesh>,
     /// What the user should know beside the result.
     pub notes: Vec<String>,
 }
@@ -41,13 +45,13 @@ pub(crate) fn check(
     checker.check_name();
     checker.check_finite("gravity", &scene.gravity);
     checker.check_materials();
-    checker.check_surfaces();
     let mut notes = Vec::new();
-    let solids = checker.check_bodies(&folder, &mut notes);
+    let meshes = checker.check_surfaces(&folder, &mut notes);
+    let solids = checker.check_bodies(&folder, &meshes, &mut notes);
     checker.check_run();
     let problems = checker.problems;
     match problems.is_empty() {
-        true => Ok(Checked { scene, folder, solids, notes }),
+        true => Ok(Checked { scene, folder, solids, meshes, notes }),
         false => Err(problems),
     }
 }

@@ -8,8 +8,12 @@
 
 mod build;
 mod check;
+mod closed;
 pub mod clump;
+mod heights;
 mod load;
+mod mesh_file;
+mod overlap;
 mod patched;
 mod place;
 mod problem;
@@ -22,7 +26,7 @@ mod size;
 mod solid;
 mod spans;
 
-pub use build::{BuildError, Built, BuiltSurface};
+pub use build::{BuildError, Built, BuiltSurface, StandIn};
 pub use check::Checked;
 pub use load::{load, load_text};
 pub use problem::{Mark, Problem, SceneError, Source};

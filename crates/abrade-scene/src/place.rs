@@ -52,9 +52,11 @@ pub(crate) fn frame(surface: &SceneSurface) -> Option<Isometry3<f64>> {
     Some(Isometry3::from_parts(translation, rotation(&surface.rotation)?))
 }
 
-/// The strip that a geometry describes; none if its pitch is not settled.
+/// The strip that a geometry describes; none if it is another one, or its pitch is not settled.
 pub(crate) fn strip(geometry: &Geometry) -> Option<HexStrip> {
-    let Geometry::HexStrip { length, width, pitch, nodes, rest_area } = *geometry;
+    let Geometry::HexStrip { length, width, pitch, nodes, rest_area } = *geometry else {
+        return None;
+    };
     let mut strip = match (pitch, nodes) {
         (Some(pitch), None) => HexStrip { length, width, pitch, rest_area: None },
         (None, Some(nodes)) => HexStrip::with_nodes(length, width, f64::from(nodes)),
@@ -85,7 +87,7 @@ pub(crate) fn local_state(
             let nodes = surface.map_or(0.0, node_height);
             Point3::new(at[0], at[1], gap + nodes - lowest)
         }
-        Placement::At { point } => Point3::from(*point),
+        Placement::InFrame { point, .. } | Placement::At { point } => Point3::from(*point),
     };
     let (velocity, spin) = velocity(&body.motion);
     Some(State { position, rotation, velocity, spin })
@@ -104,6 +106,12 @@ fn velocity(motion: &Motion) -> (Vector3<f64>, Vector3<f64>) {
     }
 }
 
+/// Round-off [m] that a placement may carry.
+pub(crate) fn round_off(shape: &Shape, state: &State) -> f64 {
+    PLACEMENT_ROUND_OFF * shape.bounding_radius()
+        + 8.0 * f64::EPSILON * state.position.coords.norm()
+}
+
 /// Depth [m] of a body below the node surface of `strip`, `state` being in the strip's frame; none
 /// if it lies above or beside it.
 pub(crate) fn depth_inside(
@@ -113,8 +121,6 @@ pub(crate) fn depth_inside(
     node_height: f64,
 ) -> Option<f64> {
     let half = Vector3::new(strip.length / 2.0 + strip.pitch, strip.width / 2.0 + strip.pitch, 0.0);
-    let round_off = PLACEMENT_ROUND_OFF * shape.bounding_radius()
-        + 8.0 * f64::EPSILON * state.position.coords.norm();
     let depth = |piece: &Piece| match piece {
         Piece::Ball(ball) => {
             let centre = state.pose() * ball.centre;
@@ -130,7 +136,7 @@ pub(crate) fn depth_inside(
         }
     };
     let deepest = shape.pieces().iter().filter_map(depth).fold(0.0, f64::max);
-    (deepest > round_off).then_some(deepest)
+    (deepest > round_off(shape, state)).then_some(deepest)
 }
 
 /// Depth of a ball below the part of the plane z = 0 within `half` of the origin.

@@ -18,7 +18,10 @@ use crate::scene::{Motion, Output, Placement, Solution, Stop};
 
 mod bodies;
 mod double;
+mod ending;
 mod engine;
+mod extent;
+mod frames;
 mod record;
 mod samples;
 mod single;

@@ -5,6 +5,7 @@
 //! unit in brackets; the JSON schema and the field reference are made from these lines.
 
 mod body;
+mod geometry;
 mod motion;
 mod run;
 mod shape;
@@ -17,10 +18,11 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub use body::{Placement, Rotation, SceneBody};
+pub use geometry::Geometry;
 pub use motion::{Motion, Solution};
-pub use run::{Moment, Output, Resolve, Run, Stop};
+pub use run::{MeshFormat, Moment, Output, Resolve, Run, Stop};
 pub use shape::{ClumpInertia, SceneShape};
-pub use surface::{Geometry, SceneSurface, SurfaceMotion};
+pub use surface::{SceneSurface, SurfaceMotion};
 
 use abrade::Material;
 use abrade::quantity::Quantity;

@@ -3,17 +3,21 @@
 
 use std::collections::BTreeMap;
 
-use abrade::{ElasticLaw, HexStrip, Material};
+use abrade::{ElasticLaw, HexStrip, Material, TriangleMesh};
 
 use crate::check::Checked;
 use crate::place;
-use crate::scene::{Motion, Placement, SceneBody, SceneSurface, Solution};
+use crate::scene::{Motion, SceneBody, SceneSurface, Solution};
 use crate::solid::Solid;
 
 /// Bytes per node: position, normal, area, depth, and its place in the grid.
 const NODE_BYTES: f64 = 90.0;
+/// Bytes per node of a closed surface: also its facets and the tree over them.
+const MESH_NODE_BYTES: f64 = 900.0;
 /// Seconds to lay a node.
 const LAY_NODE: f64 = 1e-7;
+/// Seconds to lay a node of a closed surface.
+const LAY_MESH_NODE: f64 = 1e-5;
 /// Seconds to take a node through the laws once.
 const EVALUATE_NODE: f64 = 3e-7;
 /// Steps of an oblique contact at an accuracy of 3e-3.
@@ -33,10 +37,10 @@ pub struct Size {
 /// Size of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceSize {
-    /// Columns, along x.
-    pub columns: f64,
-    /// Rows, along y.
-    pub rows: f64,
+    /// Number of nodes.
+    pub nodes: f64,
+    /// Columns, along x, and rows, along y, of a plate.
+    pub columns_rows: Option<[f64; 2]>,
     /// Distance of neighbouring nodes [m].
     pub pitch: f64,
     /// Area a node stands for [m2].
@@ -44,16 +48,25 @@ pub struct SurfaceSize {
 }
 
 impl SurfaceSize {
-    /// Number of nodes.
-    pub fn nodes(&self) -> f64 {
-        self.columns * self.rows
-    }
-
-    fn of(strip: &HexStrip) -> Self {
+    fn of_strip(strip: &HexStrip) -> Self {
         let [columns, rows] = strip.columns_rows();
         let pitch = strip.pitch;
         let rest_area = strip.rest_area.unwrap_or(0.75f64.sqrt() * pitch * pitch);
-        Self { columns, rows, pitch, rest_area }
+        Self { nodes: columns * rows, columns_rows: Some([columns, rows]), pitch, rest_area }
+    }
+
+    fn of_mesh(mesh: &TriangleMesh) -> Self {
+        let nodes = mesh.vertices().len() as f64;
+        Self { nodes, columns_rows: None, pitch: mesh.pitch(), rest_area: mesh.area() / nodes }
+    }
+
+    fn bytes(&self) -> f64 {
+        self.nodes * if self.columns_rows.is_some() { NODE_BYTES } else { MESH_NODE_BYTES }
+    }
+
+    /// Time to lay the nodes [s].
+    fn seconds(&self) -> f64 {
+        self.nodes * if self.columns_rows.is_some() { LAY_NODE } else { LAY_MESH_NODE }
     }
 }
 
@@ -61,11 +74,15 @@ impl Checked {
     /// Sizes the scene.
     pub fn size(&self) -> Size {
         let sized = self.scene.surfaces.iter().filter_map(|(name, surface)| {
-            let strip = place::strip(&surface.geometry)?;
-            Some((name.clone(), SurfaceSize::of(&strip)))
+            let size = match self.meshes.get(name) {
+                Some(mesh) => SurfaceSize::of_mesh(mesh),
+                None => SurfaceSize::of_strip(&place::strip(&surface.geometry)?),
+            };
+            Some((name.clone(), size))
         });
         let surfaces: BTreeMap<_, _> = sized.collect();
-        let nodes: f64 = surfaces.values().map(SurfaceSize::nodes).sum();
+        let memory = surfaces.values().map(SurfaceSize::bytes).sum();
+        let laying: f64 = surfaces.values().map(SurfaceSize::seconds).sum();
         let contacts: f64 = self
             .scene
             .bodies
@@ -83,14 +100,14 @@ impl Checked {
                 Some(contact.evaluations(&body.motion) * EVALUATE_NODE)
             })
             .sum();
-        Size { memory: nodes * NODE_BYTES, seconds: nodes * LAY_NODE + contacts, surfaces }
+        Size { memory, seconds: laying + contacts, surfaces }
     }
 
     /// The surface that a body is placed on, else the first one.
     fn met_by(&self, body: &SceneBody) -> Option<(&String, &SceneSurface)> {
-        match &body.position {
-            Placement::OnSurface { surface, .. } => self.scene.surfaces.get_key_value(surface),
-            Placement::At { .. } => self.scene.surfaces.iter().next(),
+        match body.position.surface() {
+            Some(surface) => self.scene.surfaces.get_key_value(surface),
+            None => self.scene.surfaces.iter().next(),
         }
     }
 }

@@ -1,6 +1,5 @@
 //! From a scene's shape to geometry about the centre of mass, mass and inertia.
 
-use std::io::Cursor;
 use std::path::Path;
 
 use abrade::{
@@ -10,6 +9,7 @@ use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
 use crate::clump::{self, ClumpError, ClumpFile, Format, Given, Source};
+use crate::mesh_file::{self, FileTrouble};
 use crate::scene::{ClumpInertia, SceneShape};
 
 /// Hull coordinates [m] beyond which volumes cannot be held in a number.
@@ -42,8 +42,8 @@ pub(crate) enum SolidTrouble {
     #[error(transparent)]
     Clump(#[from] ClumpError),
     /// The mesh file.
-    #[error("the mesh `{file}` cannot be read: {reason}")]
-    Mesh { file: String, reason: String },
+    #[error(transparent)]
+    Mesh(#[from] FileTrouble),
     /// Nothing says what it weighs.
     #[error("nothing gives a mass")]
     NoMass,
@@ -119,7 +119,7 @@ fn blank(shape: &SceneShape, density: Option<f64>, folder: &Path) -> Result<Blan
                 (Some(points), None) => {
                     hull(&points.iter().map(|p| Point3::from(*p)).collect::<Vec<_>>())
                 }
-                (None, Some(file)) => hull(&mesh_vertices(folder, file, *scale)?),
+                (None, Some(file)) => hull(&mesh_file::read(folder, file, *scale)?.vertices),
                 _ => Err(SolidTrouble::OneOf("points", "file")),
             }
         }
@@ -189,57 +189,7 @@ fn clumped(
     })
 }
 
-/// Vertices of an STL file [m].
-fn mesh_vertices(folder: &Path, file: &str, scale: f64) -> Result<Vec<Point3<f64>>, SolidTrouble> {
-    let fail = |reason: String| SolidTrouble::Mesh { file: file.to_owned(), reason };
-    let bytes = std::fs::read(folder.join(file)).map_err(|e| fail(e.kind().to_string()))?;
-    stl_vertices(bytes, scale).map_err(|e| fail(e.to_string()))
-}
-
-/// Vertices of the triangles of an STL text, times `scale`.
-fn stl_vertices(bytes: Vec<u8>, scale: f64) -> std::io::Result<Vec<Point3<f64>>> {
-    let mut vertices = Vec::new();
-    for triangle in stl_io::create_stl_reader(&mut Cursor::new(bytes))? {
-        for vertex in triangle?.vertices {
-            vertices.push(Point3::from(vertex.0.map(|c| f64::from(c) * scale)));
-        }
-    }
-    Ok(vertices)
-}
-
 fn positive(field: &'static str, values: &[f64]) -> Result<(), SolidTrouble> {
     let error = values.iter().find_map(|&value| ParameterError::positive(field, value));
     error.map_or(Ok(()), |error| Err(SolidTrouble::Parameter(error)))
-}
-
-#[cfg(test)]
-mod tests {
-    use proptest::prelude::*;
-
-    use super::*;
-
-    const CORNER: &str = "solid corner\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n\
-        vertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n\
-        vertex 0 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop\nendfacet\nendsolid corner\n";
-
-    #[test]
-    fn the_hull_of_a_mesh_has_its_volume() {
-        let vertices = stl_vertices(CORNER.into(), 2.0).unwrap();
-        let blank = hull(&vertices).unwrap();
-        assert!((blank.unit.mass - 8.0 / 6.0).abs() < 1e-9, "{}", blank.unit.mass);
-    }
-
-    proptest! {
-        #[test]
-        fn no_mesh_makes_it_panic(at in 0..CORNER.len(), glyphs in r"[0-9a-z. \n+-]{0,9}", cut in 0usize..30) {
-            let mut text = CORNER.to_owned();
-            text.replace_range(at..(at + cut).min(CORNER.len()), &glyphs);
-            let _ = stl_vertices(text.into(), 1e300).map(|vertices| hull(&vertices).is_ok());
-        }
-
-        #[test]
-        fn no_bytes_make_it_panic(bytes in prop::collection::vec(any::<u8>(), 0..300)) {
-            let _ = stl_vertices(bytes, 1.0).map(|vertices| hull(&vertices).is_ok());
-        }
-    }
 }

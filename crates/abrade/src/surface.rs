@@ -480,7 +480,7 @@ impl Surface {
 const FEW: usize = 100;
 
 /// Area that one node in [`FEW`] is smaller than [m2].
-fn small_area(areas: &[f64]) -> f64 {
+pub(crate) fn small_area(areas: &[f64]) -> f64 {
     let mut sorted = areas.to_vec();
     let at = sorted.len() / FEW;
     let (_, small, _) = sorted.select_nth_unstable_by(at, f64::total_cmp);

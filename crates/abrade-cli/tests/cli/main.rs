@@ -1,6 +1,7 @@
 //! The `abrade` command as its users see it.
 
 mod bad_sets;
+mod bad_solids;
 mod bad_values;
 mod bad_words;
 mod commands;

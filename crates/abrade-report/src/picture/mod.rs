@@ -1,17 +1,22 @@
-//! `surface.png`: the worn surface from above, coloured by depth, and a cross-section along x
-//! through its deepest node.
+//! `surface.png`: a worn plate from above, coloured by depth, and a cross-section along x through
+//! its deepest node; or a worn solid and its deepest crater, shaded, from a side that shows it.
 //!
-//! `view` chooses what is seen, `raster` spreads the nodes over pixels, `plan` and `section` draw
-//! the two halves on a `canvas`. The cost is bounded by pixels and by the nodes inside the view.
+//! Of a plate, `view` chooses what is seen, `raster` spreads the nodes over pixels, `plan` and
+//! `section` draw the two halves on a `canvas`; the cost is bounded by pixels and by the nodes
+//! inside the view. Of a solid, `camera` chooses the side, `shading` draws its facets, `solid` lays
+//! out the panels; the cost is bounded by pixels and facets.
 
 mod axis;
+mod camera;
 mod canvas;
 mod colour;
 mod letters;
 mod plan;
 mod raster;
 mod section;
+mod shading;
 mod slope;
+mod solid;
 mod view;
 
 use std::path::Path;
@@ -23,9 +28,10 @@ use crate::atomic;
 use crate::error::ReportError;
 use crate::units::{counted, of_length, of_volume, with_unit};
 use canvas::{Align, Canvas, Rect, Text};
+pub use solid::SolidPicture;
 use view::View;
 
-/// What a picture shows.
+/// A picture of a plate.
 #[derive(Clone, Copy, Debug)]
 pub struct Picture<'a> {
     /// Headline, usually the scene's name.
@@ -78,7 +84,7 @@ impl Picture<'_> {
         let top = plan.bottom + GAP;
         let section = Rect { top, bottom: top + SECTION_HEIGHT, ..plan };
         let mut canvas = Canvas::new(WIDTH, (section.bottom + FOOT) as usize)?;
-        self.head(&mut canvas, &view);
+        head(&mut canvas, SIDES.0, self.title, self.nodes);
         plan::draw(&mut canvas, &plan, &view, self.nodes, self.marks)?;
         section::draw(&mut canvas, &section, &view, self.nodes)?;
         canvas.to_png()
@@ -91,29 +97,31 @@ impl Picture<'_> {
     pub fn write(&self, path: &Path) -> Result<(), ReportError> {
         atomic::write(path, &self.to_png()?)
     }
+}
 
-    fn head(&self, canvas: &mut Canvas, view: &View) {
-        let title = Text { size: 34.0, bold: true, align: Align::Left, ..Text::default() };
-        let line = canvas.fitted(self.title, title, WIDTH as f64 - 1.5 * SIDES.0);
-        canvas.text([SIDES.0, 40.0], &line, title);
-        let caption = Text { size: 22.0, align: Align::Left, colour: colour::SOFT, ..title };
-        canvas.text([SIDES.0, 87.0], &self.caption(view), Text { bold: false, ..caption });
-    }
+/// Title and figures of `nodes`, their left edge at `left`.
+fn head(canvas: &mut Canvas, left: f64, title: &str, nodes: &Nodes) {
+    let look = Text { size: 34.0, bold: true, align: Align::Left, ..Text::default() };
+    let line = canvas.fitted(title, look, WIDTH as f64 - 1.5 * SIDES.0);
+    canvas.text([left, 40.0], &line, look);
+    let small = Text { size: 22.0, bold: false, colour: colour::SOFT, ..look };
+    canvas.text([left, 87.0], &caption(nodes), small);
+}
 
-    fn caption(&self, view: &View) -> String {
-        let Some(deepest) = &view.deepest else {
-            return format!("no wear  ·  {} nodes", counted(self.nodes.len()));
-        };
-        let volume = self.nodes.wear_volume();
-        let worn = self.nodes.depth.iter().filter(|depth| **depth > 0.0).count();
-        format!(
-            "wear volume {}  ·  largest depth {}  ·  {} of {} nodes worn",
-            with_unit(volume, of_volume(volume)),
-            with_unit(deepest.depth, of_length(deepest.depth)),
-            counted(worn),
-            counted(self.nodes.len()),
-        )
+fn caption(nodes: &Nodes) -> String {
+    let deepest = nodes.depth.iter().copied().fold(0.0, f64::max);
+    if deepest == 0.0 {
+        return format!("no wear  ·  {} nodes", counted(nodes.len()));
     }
+    let volume = nodes.wear_volume();
+    let worn = nodes.depth.iter().filter(|depth| **depth > 0.0).count();
+    format!(
+        "wear volume {}  ·  largest depth {}  ·  {} of {} nodes worn",
+        with_unit(volume, of_volume(volume)),
+        with_unit(deepest, of_length(deepest)),
+        counted(worn),
+        counted(nodes.len()),
+    )
 }
 
 #[cfg(test)]

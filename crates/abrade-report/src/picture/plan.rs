@@ -60,18 +60,22 @@ fn paint_surface(canvas: &mut Canvas, rect: &Rect, view: &View, nodes: &Nodes) {
     });
 }
 
-fn shades() -> Vec<Rgb> {
+pub(super) fn shades() -> Vec<Rgb> {
     (0..SHADES).map(|i| colour::of_share(i as f64 / (SHADES - 1) as f64)).collect()
 }
 
-fn shade(shades: &[Rgb], share: f64) -> Rgb {
+pub(super) fn shade(shades: &[Rgb], share: f64) -> Rgb {
     match share > 0.0 {
         true => shades[((share * (SHADES - 1) as f64).round() as usize).min(SHADES - 1)],
         false => UNTOUCHED,
     }
 }
 
-fn colour_bar(canvas: &mut Canvas, rect: &Rect, largest: f64) -> Result<(), ReportError> {
+pub(super) fn colour_bar(
+    canvas: &mut Canvas,
+    rect: &Rect,
+    largest: f64,
+) -> Result<(), ReportError> {
     let bar = Rect { left: rect.right + 32.0, right: rect.right + 60.0, ..*rect };
     let bar = Rect { top: bar.top + 40.0, ..bar };
     let [_, rows] = bar.sheet_size();
@@ -103,7 +107,16 @@ fn point_at(
     view: &View,
     mark: &Mark<'_>,
 ) -> Result<(), ReportError> {
-    let share = view.share(view.project(&mark.position_local));
+    name_place(canvas, rect, view.share(view.project(&mark.position_local)), mark.label)
+}
+
+/// A ring with a name at a share of the width and height of `rect`, unless that is outside.
+pub(super) fn name_place(
+    canvas: &mut Canvas,
+    rect: &Rect,
+    share: [f64; 2],
+    label: &str,
+) -> Result<(), ReportError> {
     if !share.iter().all(|s| (0.0..=1.0).contains(s)) {
         return Ok(());
     }
@@ -117,8 +130,8 @@ fn point_at(
     for turn in 0..12 {
         let (dy, dx) = (f64::from(turn) * std::f64::consts::PI / 6.0).sin_cos();
         let rim = Text { colour: WHITE, align, ..Text::default() };
-        canvas.text([at[0] + 2.5 * dx, at[1] + 2.5 * dy], mark.label, rim);
+        canvas.text([at[0] + 2.5 * dx, at[1] + 2.5 * dy], label, rim);
     }
-    canvas.text(at, mark.label, Text { align, ..Text::default() });
+    canvas.text(at, label, Text { align, ..Text::default() });
     Ok(())
 }

@@ -4,7 +4,7 @@
 //! `block` the compressed arrays; this page knows which arrays there are.
 
 mod block;
-mod poly;
+pub(crate) mod poly;
 
 use std::path::Path;
 
@@ -84,7 +84,7 @@ impl PlacedBody<'_> {
     }
 }
 
-fn check_columns(nodes: &Nodes) -> Result<(), ReportError> {
+pub(crate) fn check_columns(nodes: &Nodes) -> Result<(), ReportError> {
     let lengths = [
         ("rest_position", nodes.rest_position.len()),
         ("normal", nodes.normal.len()),

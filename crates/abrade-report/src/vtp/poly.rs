@@ -144,7 +144,7 @@ impl PolyData {
 }
 
 /// An error unless every corner is one of `points` points.
-pub(super) fn check_triangles(triangles: &[[u32; 3]], points: usize) -> Result<(), ReportError> {
+pub(crate) fn check_triangles(triangles: &[[u32; 3]], points: usize) -> Result<(), ReportError> {
     for (triangle, corners) in triangles.iter().enumerate() {
         if let Some(&point) = corners.iter().find(|&&corner| corner as usize >= points) {
             return Err(ReportError::Triangle { triangle, point, points });

@@ -1,15 +1,14 @@
-//! Checks of bodies: shape, mass, place.
+//! Checks of bodies: shape and mass.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use abrade::{ParameterError, ShapeError};
+use abrade::{ParameterError, ShapeError, TriangleMesh};
 
-use super::{Checker, finite};
+use super::Checker;
 use crate::clump::ClumpError;
-use crate::place;
 use crate::problem::{Mark, Problem, Source};
-use crate::scene::{Motion, Placement, SceneBody, SceneShape};
+use crate::scene::{Motion, SceneBody, SceneShape};
 use crate::solid::{self, Solid, SolidTrouble};
 use crate::spans::ScenePath;
 
@@ -17,6 +16,7 @@ impl Checker<'_> {
     pub(super) fn check_bodies(
         &mut self,
         folder: &Path,
+        meshes: &BTreeMap<String, TriangleMesh>,
         notes: &mut Vec<String>,
     ) -> BTreeMap<String, Solid> {
         let mut solids = BTreeMap::new();
@@ -29,7 +29,7 @@ impl Checker<'_> {
                 Ok((solid, note)) => {
                     notes.extend(note.map(|note| format!("body `{name}`: {note}")));
                     if placed {
-                        self.check_outside(&path, name, body, &solid);
+                        self.check_outside(&path, name, body, &solid, meshes);
                     }
                     solids.insert(name.clone(), solid);
                 }
@@ -80,7 +80,7 @@ impl Checker<'_> {
                 self.refuse(&field, format!("`{shape}`: {error}"), "has no volume");
             }
             SolidTrouble::Clump(error) => self.refuse_clump(&shape.join("file"), error),
-            SolidTrouble::Mesh { .. } => self.refuse(&shape.join("file"), message, ""),
+            SolidTrouble::Mesh(_) => self.refuse(&shape.join("file"), message, ""),
             SolidTrouble::NoMass => {
                 let message = format!("nothing gives a mass to `{path}`");
                 self.refuse(path, message, "`density` must be given");
@@ -132,70 +132,6 @@ impl Checker<'_> {
             let message = format!("`{path}` cannot meet the surface `{surface}` under `Eq5`");
             let help = Some("`Projected` goes with every shape".to_owned());
             self.problems.push(Problem { message, marks, help });
-        }
-    }
-
-    /// True when the body's place can be worked out.
-    fn check_place(&mut self, path: &ScenePath, body: &SceneBody) -> bool {
-        let before = self.problems.len();
-        if place::rotation(&body.rotation).is_none() {
-            self.no_direction(&path.join("rotation"));
-        }
-        let position = path.join("position");
-        match &body.position {
-            Placement::OnSurface { surface, at, gap } => {
-                if !self.scene.surfaces.contains_key(surface) {
-                    let known: Vec<&str> = self.scene.surfaces.keys().map(String::as_str).collect();
-                    self.undefined(&position.join("surface"), "surface", surface, &known);
-                }
-                let at = at.iter().find(|x| !x.is_finite()).map(|&x| finite("at", x));
-                let gap = (!gap.is_finite()).then(|| finite("gap", *gap));
-                self.ranges(&position, [at, gap]);
-            }
-            Placement::At { point } => {
-                let point = point.iter().find(|x| !x.is_finite());
-                self.ranges(&position, [point.map(|&x| finite("point", x))]);
-            }
-        }
-        self.problems.len() == before
-    }
-
-    /// A body must start outside every surface.
-    fn check_outside(&mut self, path: &ScenePath, name: &str, body: &SceneBody, solid: &Solid) {
-        let scene = self.scene;
-        let own = match &body.position {
-            Placement::OnSurface { surface, .. } => scene.surfaces.get_key_value(surface),
-            Placement::At { .. } => None,
-        };
-        let Some(local) = place::local_state(body, solid, own.map(|(_, surface)| surface)) else {
-            return;
-        };
-        let world = match own.map(|(_, surface)| place::frame(surface)) {
-            Some(Some(frame)) => local.placed_by(&frame),
-            Some(None) => return,
-            None => local,
-        };
-        for (surface_name, surface) in &scene.surfaces {
-            let (Some(strip), Some(frame)) =
-                (place::strip(&surface.geometry), place::frame(surface))
-            else {
-                continue;
-            };
-            let state = match own {
-                Some((own_name, _)) if own_name == surface_name => local,
-                _ => world.seen_from(&frame),
-            };
-            let nodes = place::node_height(surface);
-            if let Some(depth) = place::depth_inside(&solid.shape, &state, &strip, nodes) {
-                let field = match body.position {
-                    Placement::OnSurface { .. } => path.join("position").join("gap"),
-                    Placement::At { .. } => path.join("position").join("point"),
-                };
-                let message = format!(
-                    "the body `{name}` starts {depth:.3e} m inside the surface `{surface_name}`"
-                );
-                self.refuse(&field, message, "must lie above the surface");
-            }
         }
     }
 }

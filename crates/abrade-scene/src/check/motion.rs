@@ -62,9 +62,15 @@ impl Checker<'_> {
                 self.refuse(&motion.join("rate_over"), message, "must be at most `distance`");
             }
         }
-        if let Placement::At { .. } = body.position {
+        if !matches!(body.position, Placement::OnSurface { .. }) && !self.is_on_closed(body) {
             let message = format!("`{path}` is driven, so it must start on a surface");
             self.refuse(&path.join("position"), message, "expected `OnSurface(..)`");
         }
+    }
+
+    /// True for a body in the frame of a closed surface, where no drive can be.
+    fn is_on_closed(&self, body: &SceneBody) -> bool {
+        let surface = body.position.surface().and_then(|name| self.scene.surfaces.get(name));
+        surface.is_some_and(|surface| surface.geometry.is_closed())
     }
 }

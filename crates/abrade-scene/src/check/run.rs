@@ -59,7 +59,11 @@ impl Checker<'_> {
                 self.ranges(path, [error]);
             }
             Output::Checkpoint => self.not_available(path, "Checkpoint"),
-            Output::Bodies | Output::Picture | Output::Energy | Output::Report => {}
+            Output::Bodies
+            | Output::Mesh { .. }
+            | Output::Picture
+            | Output::Energy
+            | Output::Report => {}
         }
     }
 }

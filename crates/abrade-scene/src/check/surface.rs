@@ -1,18 +1,38 @@
 //! Checks of surfaces.
 
-use abrade::{ElasticLaw, FlowLaw, Lateral, NODE_LIMIT, ParameterError, SurfaceError, SurfaceLaws};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use abrade::{
+    ElasticLaw, FlowLaw, Lateral, NODE_LIMIT, ParameterError, SurfaceError, SurfaceLaws,
+    TriangleMesh,
+};
 
 use super::{Checker, finite};
+use crate::closed::{self, ClosedMesh};
 use crate::place;
 use crate::problem::Problem;
 use crate::scene::{Geometry, SceneSurface, SurfaceMotion};
 use crate::spans::ScenePath;
 
 impl Checker<'_> {
-    pub(super) fn check_surfaces(&mut self) {
+    /// Checks every surface; returns the meshes of closed ones.
+    pub(super) fn check_surfaces(
+        &mut self,
+        folder: &Path,
+        notes: &mut Vec<String>,
+    ) -> BTreeMap<String, TriangleMesh> {
+        let mut meshes = BTreeMap::new();
         for (name, surface) in &self.scene.surfaces {
             let path = ScenePath::of(["surfaces", name]);
-            self.check_geometry(&path, name, surface);
+            match closed::closed(&surface.geometry, folder) {
+                None => self.check_strip(&path, name, surface),
+                Some(Ok(ClosedMesh { mesh, note })) => {
+                    notes.extend(note.map(|note| format!("surface `{name}`: {note}")));
+                    meshes.insert(name.clone(), mesh);
+                }
+                Some(Err(trouble)) => self.refuse_closed(&path, name, trouble),
+            }
             self.check_laws(&path, surface);
             let separates = |c: char| matches!(c, '/' | '\\') || c.is_control();
             if self.scene.surfaces.len() > 1 && name.contains(separates) {
@@ -32,6 +52,7 @@ impl Checker<'_> {
                 self.no_direction(&path.join("rotation"));
             }
         }
+        meshes
     }
 
     pub(super) fn no_direction(&mut self, path: &ScenePath) {
@@ -39,9 +60,9 @@ impl Checker<'_> {
         self.refuse(path, message, "must be finite and of a length above zero");
     }
 
-    fn check_geometry(&mut self, path: &ScenePath, name: &str, surface: &SceneSurface) {
+    fn check_strip(&mut self, path: &ScenePath, name: &str, surface: &SceneSurface) {
         let path = path.join("geometry");
-        let Geometry::HexStrip { pitch, nodes, .. } = surface.geometry;
+        let Geometry::HexStrip { pitch, nodes, .. } = surface.geometry else { return };
         if pitch.is_some() == nodes.is_some() {
             let message = format!("`{path}` must have either `pitch` or `nodes`");
             return self.refuse(&path, message, "give one of them");

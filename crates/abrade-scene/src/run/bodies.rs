@@ -1,12 +1,12 @@
 //! What a run remembers of its bodies for the summary and the stop rule.
 
 use abrade::{Inertia, State};
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Point3, Vector3};
 
 use crate::build::Built;
 use crate::check::Checked;
 use crate::run::engine::{Engine, Sample, Stepped};
-use crate::scene::{Motion, Placement};
+use crate::scene::Motion;
 
 /// Speed over the body's largest speed below which it counts as resting.
 const REST: f64 = 1e-6;
@@ -16,6 +16,8 @@ pub(crate) struct Bodies {
     pub tracks: Vec<Track>,
     /// Frames of the surfaces in the world.
     pub frames: Vec<Isometry3<f64>>,
+    /// Corners of the boxes around closed surfaces, in their frames [m]; none for flat ones.
+    pub solids: Vec<Option<[Point3<f64>; 2]>>,
     /// Contacts that have ended.
     pub impacts: u64,
     /// Bodies left to the engine near a surface, with the reason and how often.
@@ -28,12 +30,15 @@ pub(crate) struct Track {
     pub name: String,
     pub inertia: Inertia,
     pub start: State,
-    /// Frame whose z is the surface that the body is aimed at.
-    pub aim: Isometry3<f64>,
+    /// Distance of its farthest point from its centre of mass [m].
+    pub reach: f64,
+    /// Frame whose z is the normal of the flat surface that the body is aimed at; none for a
+    /// closed one.
+    pub aim: Option<Isometry3<f64>>,
     /// Velocity before the first contact [m/s].
     pub approach: Option<Vector3<f64>>,
     /// Where its centre of mass was at the first touch, in the world.
-    pub landing: Option<nalgebra::Point3<f64>>,
+    pub landing: Option<Point3<f64>>,
     /// Impulse of the surfaces [N s] and time in contact [s].
     pub impulse: Vector3<f64>,
     pub contact_time: f64,
@@ -61,13 +66,15 @@ pub(crate) struct Slide {
 impl Bodies {
     pub(crate) fn new(checked: &Checked, built: &Built) -> Self {
         let frames: Vec<_> = built.surfaces.values().map(|surface| surface.pose).collect();
+        let solids: Vec<_> = built
+            .surfaces
+            .values()
+            .map(|built| (!built.surface.is_flat()).then(|| built.surface.bounds()))
+            .collect();
         let index = |name: &str| built.surfaces.keys().position(|key| key == name);
         let tracks = built.bodies.iter().map(|(name, body)| {
             let scene = &checked.scene.bodies[name];
-            let surface = match &scene.position {
-                Placement::OnSurface { surface, .. } => index(surface),
-                Placement::At { .. } => None,
-            };
+            let surface = scene.position.surface().and_then(|name| index(name));
             let slide = match &scene.motion {
                 Motion::Drive { distance, rate_over, .. } => Some(Slide {
                     distance: *distance,
@@ -83,11 +90,13 @@ impl Bodies {
                 _ => None,
             };
             let aim = surface.or(if frames.is_empty() { None } else { Some(0) });
+            let aim = aim.filter(|&i| solids[i].is_none());
             Track {
                 name: name.clone(),
                 inertia: body.inertia,
                 start: body.state,
-                aim: aim.map_or_else(Isometry3::identity, |i| frames[i]),
+                reach: body.shape.bounding_radius(),
+                aim: aim.map(|i| frames[i]),
                 approach: None,
                 landing: None,
                 impulse: Vector3::zeros(),
@@ -100,6 +109,7 @@ impl Bodies {
         Self {
             tracks: tracks.collect(),
             frames: frames.clone(),
+            solids: solids.clone(),
             impacts: 0,
             refused: Vec::new(),
             surface_names: built.surfaces.keys().cloned().collect(),
@@ -152,18 +162,41 @@ impl Bodies {
             None => {
                 let state = engine.state(body);
                 let rests = state.velocity.norm() <= REST * track.top_speed;
-                rests || (!engine.in_contact(body) && self.leaves(&state))
+                rests || (!engine.in_contact(body) && self.leaves(&state, track.reach))
             }
         })
     }
 
-    /// Away from every surface: rising over it, or below its plane.
-    fn leaves(&self, state: &State) -> bool {
-        self.frames.iter().all(|frame| {
+    /// Away from every surface: rising over a plate, or below its plane; straight past the box
+    /// around a solid.
+    fn leaves(&self, state: &State, reach: f64) -> bool {
+        self.frames.iter().zip(&self.solids).all(|(frame, solid)| {
             let local = state.seen_from(frame);
-            local.velocity.z >= 0.0 || local.position.z < 0.0
+            match solid {
+                None => local.velocity.z >= 0.0 || local.position.z < 0.0,
+                Some(corners) => misses(&local, reach, corners),
+            }
         })
     }
+}
+
+/// True when a body of this `reach` [m] that flies straight on never comes into the box between
+/// `corners`.
+fn misses(state: &State, reach: f64, [low, high]: &[Point3<f64>; 2]) -> bool {
+    let (mut from, mut until) = (0.0f64, f64::INFINITY);
+    for axis in 0..3 {
+        let (at, speed) = (state.position[axis], state.velocity[axis]);
+        let [near, far] = [low[axis] - reach - at, high[axis] + reach - at];
+        if speed == 0.0 {
+            if near >= 0.0 || far <= 0.0 {
+                return true;
+            }
+            continue;
+        }
+        let [a, b] = [near / speed, far / speed];
+        (from, until) = (from.max(a.min(b)), until.min(a.max(b)));
+    }
+    from >= until
 }
 
 impl Slide {
@@ -191,5 +224,27 @@ impl Slide {
     /// Mean force over the distance slid [N].
     pub(crate) fn mean_force(&self) -> Option<Vector3<f64>> {
         (self.travelled > 0.0).then(|| self.force_sum / self.travelled)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Fails for a rule that takes a body between the walls of a box, or on its way to it, for
+    /// one that leaves.
+    #[test]
+    fn a_body_leaves_a_solid_when_its_way_misses_the_box() {
+        let corners = [Point3::new(-1.0, -1.0, -1.0), Point3::new(1.0, 1.0, 1.0)];
+        let passes = |at: [f64; 3], v: [f64; 3]| {
+            let state = State { velocity: v.into(), ..State::at(Point3::from(at)) };
+            misses(&state, 0.5, &corners)
+        };
+        assert!(!passes([0.0, 0.0, 0.0], [0.0, 0.0, 1.0]));
+        assert!(!passes([0.0, 0.0, 9.0], [0.0, 0.0, -1.0]));
+        assert!(passes([0.0, 0.0, 9.0], [0.0, 0.0, 1.0]));
+        assert!(passes([1.6, 0.0, 9.0], [0.0, 0.0, -1.0]));
+        assert!(!passes([1.4, 0.0, 9.0], [0.0, 0.0, -1.0]));
+        assert!(passes([3.0, 0.0, 0.0], [0.0, 1.0, 0.0]));
     }
 }

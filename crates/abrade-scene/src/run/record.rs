@@ -1,17 +1,18 @@
-//! What a run writes while it goes: history, ParaView files; and at its end: picture, page,
-//! summary.
+//! What a run writes while it goes: history, ParaView files.
 
 use std::path::{Path, PathBuf};
 
 use abrade::Ledger;
 use abrade_report::history::{BodyRow, Columns, Row, SurfaceRow};
-use abrade_report::{History, Mark, Mesh, Picture, ReportError, Series, Summary, page, vtp};
+use abrade_report::{History, ReportError, Summary};
 use nalgebra::Vector3;
 
 use crate::build::Built;
 use crate::check::Checked;
 use crate::run::bodies::Bodies;
+use crate::run::ending::Ending;
 use crate::run::engine::{Engine, Sample, Watch};
+use crate::run::frames::Frames;
 use crate::run::samples::Course;
 use crate::run::summary::energies;
 use crate::scene::Output;
@@ -43,13 +44,6 @@ struct Timed<T> {
     it: T,
     every: f64,
     next: f64,
-}
-
-/// ParaView series.
-struct Frames {
-    surfaces: Vec<Series>,
-    bodies: Option<(Series, Vec<Mesh>)>,
-    at_end: bool,
 }
 
 impl Recorder {
@@ -263,98 +257,14 @@ impl Recorder {
         {
             frames.it.write(engine, bodies, self.time)?;
         }
-        let wants = |output: &Output| self.outputs.contains(output);
-        if wants(&Output::Picture) || wants(&Output::Report) {
-            let mut first = None;
-            let shown = if wants(&Output::Picture) { usize::MAX } else { 1 };
-            for (index, name) in self.surface_names.iter().enumerate().take(shown) {
-                let picture = picture(&self.title, engine, bodies, index)?;
-                let only = self.surface_names.len() == 1;
-                let stem = if only { "surface".to_owned() } else { format!("surface_{name}") };
-                if wants(&Output::Picture) {
-                    let path = self.folder.join(format!("{stem}.png"));
-                    abrade_report::atomic::write(&path, &picture)?;
-                }
-                first.get_or_insert(picture);
-            }
-            if wants(&Output::Report) {
-                page::write(&self.folder.join("report.html"), summary, first.as_deref())?;
-            }
-        }
-        summary.write(&self.folder.join("summary.json"))
-    }
-}
-
-/// The worn surface with the places where bodies came down.
-fn picture(
-    title: &str,
-    engine: &dyn Engine,
-    bodies: &Bodies,
-    surface: usize,
-) -> Result<Vec<u8>, ReportError> {
-    let frame = &bodies.frames[surface];
-    let marks: Vec<_> = bodies
-        .tracks
-        .iter()
-        .filter_map(|track| {
-            let landing = track.landing?;
-            let position_local = frame.inverse_transform_point(&landing);
-            Some(Mark { label: &track.name, position_local })
-        })
-        .collect();
-    let marks = if bodies.tracks.len() > 1 { &marks[..] } else { &[] };
-    Picture { title, nodes: engine.surface(surface).nodes(), marks }.to_png()
-}
-
-impl Frames {
-    fn new(
-        built: &Built,
-        names: &[String],
-        folder: &Path,
-        with_bodies: bool,
-        at_end: bool,
-    ) -> Result<Self, ReportError> {
-        let stem = |name: &String| match names.len() {
-            1 => "surface".to_owned(),
-            _ => format!("surface_{name}"),
-        };
-        let bodies = match with_bodies {
-            true => {
-                let meshes = built.bodies.values().map(|body| Mesh::of_shape(&body.shape));
-                Some((Series::new(folder, "bodies"), meshes.collect::<Result<_, _>>()?))
-            }
-            false => None,
-        };
-        Ok(Self {
-            surfaces: names.iter().map(|name| Series::new(folder, &stem(name))).collect(),
+        let ending = Ending {
+            folder: &self.folder,
+            title: &self.title,
+            surface_names: &self.surface_names,
+            engine,
             bodies,
-            at_end,
-        })
-    }
-
-    fn write(
-        &mut self,
-        engine: &dyn Engine,
-        bodies: &Bodies,
-        time: f64,
-    ) -> Result<(), ReportError> {
-        for (index, series) in self.surfaces.iter_mut().enumerate() {
-            let surface = engine.surface(index);
-            let (path, frame) = (series.next_path(), &bodies.frames[index]);
-            vtp::write_surface(&path, surface.nodes(), frame, &surface.triangles())?;
-            series.push(time);
-            series.write()?;
-        }
-        let Some((series, meshes)) = &mut self.bodies else { return Ok(()) };
-        let states: Vec<_> = (0..meshes.len()).map(|body| engine.state(body)).collect();
-        let placed: Vec<_> = meshes
-            .iter()
-            .zip(&states)
-            .map(|(mesh, state)| vtp::PlacedBody { mesh, state })
-            .collect();
-        vtp::write_bodies(&series.next_path(), &placed)?;
-        series.push(time);
-        series.write()
+        };
+        ending.write(&self.outputs, summary)
     }
 }
 

@@ -90,10 +90,11 @@ fn body(run: &Run<'_>, index: usize, track: &Track) -> BodySummary {
     let impact = (track.contact_time > 0.0).then(|| track.impulse / track.contact_time);
     let force = mean.or(impact).unwrap_or_default();
     let approach = track.approach.filter(|v| slide.is_none() && v.norm() > 0.0);
-    let local = track.aim.inverse_transform_vector(&state.velocity);
+    let local = track.aim.map(|frame| frame.inverse_transform_vector(&state.velocity));
+    let angle = |v: nalgebra::Vector3<f64>| v.z.atan2(v.xy().norm()).to_degrees();
     BodySummary {
         restitution: approach.map(|v| state.velocity.norm() / v.norm()),
-        rebound_angle: approach.map(|_| local.z.atan2(local.xy().norm()).to_degrees()),
+        rebound_angle: approach.and(local).map(angle),
         mean_force: [force.x, force.y, force.z],
         ..BodySummary::of(&state)
     }

@@ -2,20 +2,21 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use abrade::{Body, Drive, Driven, Ledger, Piece, Shape, State, Surface, Until};
+use abrade::{Body, Drive, Driven, Ledger, Piece, State, Surface, Until};
 use nalgebra::{Isometry3, Vector3};
 
 use super::plug;
 use super::plug::rapier::dynamics::{RigidBodyBuilder, RigidBodyHandle};
-use super::plug::rapier::geometry::ColliderBuilder;
+use super::plug::rapier::geometry::{ColliderBuilder, TriMeshFlags};
 use super::plug::rapier::math::Real;
 use super::plug::rapier::pipeline::PhysicsWorld;
 use super::plug::{
     MicroStep, SurfaceId, WearError, WearEvent, WearObserver, WearSettings, WearWorld, scalar,
 };
-use crate::build::{Built, BuiltSurface};
+use crate::build::{Built, BuiltSurface, StandIn};
 use crate::run::RunError;
 use crate::run::engine::{Counts, Ended, Engine, Sample, Stepped, Watch};
+use crate::run::extent::{length_unit, volume_sum};
 use crate::scene::Resolve;
 
 /// Thickness of a plate's proxy in lengths of the plate.
@@ -88,17 +89,13 @@ impl World {
         Ok(scene)
     }
 
-    /// Lays a box under the surface's nodes and the surface on it.
+    /// Puts the surface on a collider of the undeformed solid.
     fn add_surface(&mut self, built: BuiltSurface) -> Result<(), RunError> {
-        let [low, high] = built.surface.bounds();
-        let size = high - low;
-        let margin = built.surface.pitch();
-        let thick = THICKNESS * size.amax() + margin;
-        let middle = low + size * 0.5 - Vector3::z() * (0.5 * thick);
-        let offset = Isometry3::translation(middle.x, middle.y, middle.z);
-        let half = [0.5 * size.x + margin, 0.5 * size.y + margin, 0.5 * thick].map(scalar::narrow);
-        let proxy = ColliderBuilder::cuboid(half[0], half[1], half[2])
-            .position(scalar::to_pose(&(built.pose * offset)));
+        let (proxy, offset) = match built.stand_in {
+            StandIn::Plate => box_below(&built.surface),
+            solid => (solid_collider(solid, &built.surface)?, Isometry3::identity()),
+        };
+        let proxy = proxy.position(scalar::to_pose(&(built.pose * offset)));
         let proxy = self.world.colliders.insert(proxy);
         let colliders = &mut self.world.colliders;
         let placed = self.wear.insert_at(built.surface, proxy, offset.inverse(), colliders);
@@ -272,6 +269,39 @@ impl WearObserver for Relay<'_> {
     }
 }
 
+/// A box under the nodes of a plate, and its middle in the plate's frame.
+fn box_below(surface: &Surface) -> (ColliderBuilder, Isometry3<f64>) {
+    let [low, high] = surface.bounds();
+    let size = high - low;
+    let margin = surface.pitch();
+    let thick = THICKNESS * size.amax() + margin;
+    let middle = low + size * 0.5 - Vector3::z() * (0.5 * thick);
+    let half = [0.5 * size.x + margin, 0.5 * size.y + margin, 0.5 * thick].map(scalar::narrow);
+    let proxy = ColliderBuilder::cuboid(half[0], half[1], half[2]);
+    (proxy, Isometry3::translation(middle.x, middle.y, middle.z))
+}
+
+/// The collider of a solid, in the frame of its surface.
+fn solid_collider(solid: StandIn, surface: &Surface) -> Result<ColliderBuilder, RunError> {
+    Ok(match solid {
+        StandIn::Ball { radius } => ColliderBuilder::ball(scalar::narrow(radius)),
+        StandIn::Cuboid { half_extents } => {
+            let [x, y, z] = half_extents.map(scalar::narrow);
+            ColliderBuilder::cuboid(x, y, z)
+        }
+        StandIn::Capsule { radius, half_length } => {
+            ColliderBuilder::capsule_z(scalar::narrow(half_length), scalar::narrow(radius))
+        }
+        StandIn::Plate | StandIn::Facets => {
+            let nodes = surface.nodes().rest_position.iter();
+            let corners = nodes.map(|node| scalar::to_vector(&node.coords)).collect();
+            let flags = TriMeshFlags::ORIENTED | TriMeshFlags::FIX_INTERNAL_EDGES;
+            ColliderBuilder::trimesh_with_flags(corners, surface.triangles(), flags)
+                .map_err(|error| RunError::Engine { what: error.to_string() })?
+        }
+    })
+}
+
 /// Rapier's collider for a piece about the centre of mass.
 fn collider(piece: &Piece) -> Option<ColliderBuilder> {
     match piece {
@@ -285,20 +315,4 @@ fn collider(piece: &Piece) -> Option<ColliderBuilder> {
             ColliderBuilder::convex_hull(&points)
         }
     }
-}
-
-/// Sum of the pieces' volumes, overlaps counted twice, as Rapier's densities do [m3].
-fn volume_sum(shape: &Shape) -> f64 {
-    let volume = |piece: &Piece| match piece {
-        Piece::Ball(ball) => 4.0 / 3.0 * std::f64::consts::PI * ball.radius.powi(3),
-        Piece::Hull(hull) => hull.volume(),
-    };
-    shape.pieces().iter().map(volume).sum()
-}
-
-/// The size of the smallest body [m]: Rapier's tolerances are fractions of it.
-fn length_unit(built: &Built) -> f64 {
-    let sizes = built.bodies.values().map(|body| 2.0 * body.shape.bounding_radius());
-    let smallest = sizes.fold(f64::INFINITY, f64::min);
-    if smallest.is_finite() { smallest } else { 1.0 }
 }

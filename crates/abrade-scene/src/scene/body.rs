@@ -33,7 +33,7 @@ pub struct SceneBody {
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Placement {
-    /// Above a surface. The body's `rotation` and `motion` count in the surface's axes.
+    /// Above a flat surface. The body's `rotation` and `motion` count in the surface's axes.
     OnSurface {
         /// Name of the surface.
         surface: String,
@@ -47,6 +47,16 @@ pub enum Placement {
         #[schemars(with = "Quantity")]
         gap: f64,
     },
+    /// With the centre of mass at a point of a surface's frame. The body's `rotation` and `motion`
+    /// count in the surface's axes.
+    InFrame {
+        /// Name of the surface.
+        surface: String,
+        /// Centre of mass, from the origin of the surface's frame [m].
+        #[serde(deserialize_with = "vectors::length3")]
+        #[schemars(with = "[Quantity; 3]")]
+        point: [f64; 3],
+    },
     /// With the centre of mass at a point of the world. The body's `rotation` and `motion` count in
     /// world axes.
     At {
@@ -55,6 +65,16 @@ pub enum Placement {
         #[schemars(with = "[Quantity; 3]")]
         point: [f64; 3],
     },
+}
+
+impl Placement {
+    /// Name of the surface in whose frame the body is placed.
+    pub fn surface(&self) -> Option<&String> {
+        match self {
+            Self::OnSurface { surface, .. } | Self::InFrame { surface, .. } => Some(surface),
+            Self::At { .. } => None,
+        }
+    }
 }
 
 /// How a body or a surface is turned.

@@ -87,7 +87,14 @@ pub enum Output {
     },
     /// `bodies.pvd`: the bodies at the instants of `Surface`.
     Bodies,
-    /// `surface.png`: plan view and cross-section of the worn surface.
+    /// `surface.stl` or `surface.obj`: the facets of the worn surface at the end, in its frame [m];
+    /// closed for a solid, a sheet for a plate.
+    Mesh {
+        /// Format of the file.
+        format: MeshFormat,
+    },
+    /// `surface.png`: plan view and cross-section of a worn plate; a worn solid from the side of
+    /// its deepest node.
     Picture,
     /// The energy ledger, in the summary.
     Energy,
@@ -95,6 +102,15 @@ pub enum Output {
     Report,
     /// A file from which the run can be resumed; not available yet.
     Checkpoint,
+}
+
+/// Format of a mesh file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+pub enum MeshFormat {
+    /// Binary STL: corners to seven digits.
+    Stl,
+    /// OBJ: corners to every digit, and each but once.
+    Obj,
 }
 
 /// A moment of a run.

@@ -41,7 +41,7 @@ pub enum SceneShape {
         #[serde(default, deserialize_with = "vectors::points")]
         #[schemars(with = "Option<Vec<[Quantity; 3]>>")]
         points: Option<Vec<[f64; 3]>>,
-        /// STL file whose vertices are the points [m, times `scale`].
+        /// STL or OBJ file whose vertices are the points [m, times `scale`].
         #[serde(default)]
         file: Option<String>,
         /// Factor from the file's lengths to metres [-].

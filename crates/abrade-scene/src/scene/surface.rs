@@ -5,7 +5,7 @@ use abrade::{ElasticLaw, FlowLaw, Lateral, Removal};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{Rotation, vectors};
+use super::{Geometry, Rotation, vectors};
 
 /// A surface that wears.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -38,35 +38,6 @@ pub struct SceneSurface {
     /// How the surface's frame is turned in the world (default: not at all).
     #[serde(default)]
     pub rotation: Rotation,
-}
-
-/// Shape and nodes of a surface.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub enum Geometry {
-    /// A flat plate of nodes in close-packed rows along y, normal along z. The origin of its frame
-    /// is the node nearest its middle. Either `pitch` or `nodes` is given.
-    HexStrip {
-        /// Extent along x [m].
-        #[serde(deserialize_with = "quantity::length")]
-        #[schemars(with = "Quantity")]
-        length: f64,
-        /// Extent along y [m].
-        #[serde(deserialize_with = "quantity::length")]
-        #[schemars(with = "Quantity")]
-        width: f64,
-        /// Distance of neighbouring nodes [m].
-        #[serde(default, deserialize_with = "quantity::optional_length")]
-        #[schemars(with = "Option<Quantity>")]
-        pitch: Option<f64>,
-        /// Number of nodes that sets the pitch; a node stands for length * width / nodes.
-        #[serde(default)]
-        nodes: Option<u32>,
-        /// Area a node stands for [m2] (default sqrt(3)/2 pitch^2, or length * width / nodes).
-        #[serde(default, deserialize_with = "quantity::optional_area")]
-        #[schemars(with = "Option<Quantity>")]
-        rest_area: Option<f64>,
-    },
 }
 
 /// How a surface moves.

@@ -69,7 +69,37 @@ fn shape() -> impl Strategy<Value = String> {
     ]
 }
 
+/// Sizes that make few nodes or far too many.
+fn size() -> impl Strategy<Value = &'static str> {
+    prop::sample::select(vec![
+        "0", "-0.0", "NaN", "inf", "-1", "1", "2", "0.3", "1e-9", "1e308", "5e-324", "1e-160",
+    ])
+}
+
+fn solid() -> impl Strategy<Value = String> {
+    let made = |words: [&'static str; 4]| {
+        prop::array::uniform4(size()).prop_map(move |sizes| {
+            let fields = words.iter().zip(sizes).filter(|(word, _)| !word.is_empty());
+            fields.map(|(word, size)| format!("{word}: {size}")).collect::<Vec<_>>().join(", ")
+        })
+    };
+    prop_oneof![
+        made(["radius", "pitch", "", ""]).prop_map(|fields| format!("Sphere({fields})")),
+        made(["radius", "length", "pitch", ""]).prop_map(|fields| format!("Cylinder({fields})")),
+        made(["inner", "outer", "length", "pitch"]).prop_map(|fields| format!("Tube({fields})")),
+        made(["radius", "length", "pitch", ""]).prop_map(|fields| format!("Capsule({fields})")),
+        prop::array::uniform4(size()).prop_map(|[x, y, z, pitch]| {
+            format!("Cuboid(half_extents: ({x}, {y}, {z}), pitch: {pitch})")
+        }),
+    ]
+}
+
 proptest! {
+    #[test]
+    fn any_sizes_of_a_solid(solid in solid()) {
+        load(SCENE, &[format!("surfaces.plate.geometry={solid}")]);
+    }
+
     #[test]
     fn any_value_in_any_place(sets in prop::collection::vec((path(), value()), 1..4)) {
         let sets: Vec<_> = sets.iter().map(|(path, value)| format!("{path}={value}")).collect();

@@ -1,6 +1,7 @@
 //! Scenes from text to bodies in the world.
 
 mod build;
+mod closed;
 mod extremes;
 mod words;
 

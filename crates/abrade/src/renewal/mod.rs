@@ -19,7 +19,7 @@ use thiserror::Error;
 use crate::grid::Grid;
 use crate::layout::Layout;
 use crate::mesh::{MeshError, TriangleMesh};
-use crate::surface::Surface;
+use crate::surface::{Surface, small_area};
 
 /// Depth since the last renewal over the pitch at which the next one is due. Until then the volume
 /// that nodes have swept differs from the one charged by this share of pitch / radius of curvature:
@@ -156,7 +156,7 @@ impl Surface {
         self.layout = Layout::mesh(&nodes, mesh.triangles())?;
         self.pitch = mesh.pitch();
         self.grid = Grid::new(&nodes.rest_position, 4.0 * self.pitch);
-        self.least_area = nodes.rest_area.iter().copied().fold(f64::INFINITY, f64::min);
+        self.least_area = small_area(&nodes.rest_area);
         self.nodes = nodes;
         self.deepest = 0.0;
         Some(())

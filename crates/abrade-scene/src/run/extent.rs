@@ -1,0 +1,21 @@
+//! Sizes of bodies as the engine counts them.
+
+use abrade::{Piece, Shape};
+
+use crate::build::Built;
+
+/// Sum of the pieces' volumes, overlaps counted twice, as Rapier's densities do [m3].
+pub(crate) fn volume_sum(shape: &Shape) -> f64 {
+    let volume = |piece: &Piece| match piece {
+        Piece::Ball(ball) => 4.0 / 3.0 * std::f64::consts::PI * ball.radius.powi(3),
+        Piece::Hull(hull) => hull.volume(),
+    };
+    shape.pieces().iter().map(volume).sum()
+}
+
+/// The size of the smallest body [m]: Rapier's tolerances are fractions of it.
+pub(crate) fn length_unit(built: &Built) -> f64 {
+    let sizes = built.bodies.values().map(|body| 2.0 * body.shape.bounding_radius());
+    let smallest = sizes.fold(f64::INFINITY, f64::min);
+    if smallest.is_finite() { smallest } else { 1.0 }
+}
