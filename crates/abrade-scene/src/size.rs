@@ -12,12 +12,12 @@ use crate::solid::Solid;
 
 /// Bytes per node: position, normal, area, depth, and its place in the grid.
 const NODE_BYTES: f64 = 90.0;
-/// Bytes per node of a closed surface: also its facets and the tree over them.
-const MESH_NODE_BYTES: f64 = 900.0;
+/// Bytes per node of a closed surface while it is built: also its facets and the trees over them.
+const MESH_NODE_BYTES: f64 = 1500.0;
 /// Seconds to lay a node.
 const LAY_NODE: f64 = 1e-7;
 /// Seconds to lay a node of a closed surface.
-const LAY_MESH_NODE: f64 = 1e-5;
+const LAY_MESH_NODE: f64 = 3e-5;
 /// Seconds to take a node through the laws once.
 const EVALUATE_NODE: f64 = 3e-7;
 /// Steps of an oblique contact at an accuracy of 3e-3.
