@@ -123,12 +123,16 @@ impl WearWorld {
             let parent = world.colliders.get(*collider).and_then(Collider::parent);
             parent.and_then(|handle| world.bodies.get(handle)).is_none_or(|rb| rb.is_fixed())
         };
-        match *found {
-            [] => Beside::Nothing,
+        // What moves strikes by itself.
+        let (walls, others): (Vec<_>, Vec<_>) = found.into_iter().partition(fixed);
+        match (&*walls, others.first()) {
+            ([], _) => Beside::Nothing,
             _ if world.jointed(*body) => Beside::Bound(Refusal::Jointed),
             _ if !rb.locked_axes().is_empty() => Beside::Bound(Refusal::LockedAxes),
-            [wall] if fixed(&wall) => Beside::Wall(wall),
-            [collider, ..] => Beside::Bound(Refusal::Obstructed { collider }),
+            ([wall], None) => Beside::Wall(*wall),
+            ([.., collider], None) | (_, Some(collider)) => {
+                Beside::Bound(Refusal::Obstructed { collider: *collider })
+            }
         }
     }
 
