@@ -13,6 +13,7 @@ use crate::gate;
 use crate::micro;
 use crate::observer::{Relay, WearObserver};
 use crate::resolver::Resolve;
+use crate::shadow;
 use crate::start::{How, Scene};
 use crate::surface::SurfaceId;
 use crate::track::Trace;
@@ -178,6 +179,10 @@ impl WearWorld {
             }
         };
         let end = body.state;
+        shadow::check(&end, advance.time)?;
+        if let Some((_, end)) = &moved {
+            shadow::check(end, advance.time)?;
+        }
         self.integrated.push(Integrated { body: handle, end, frame });
         if let Some(((free, extent), end)) = moved {
             self.integrated.push(Integrated { body: free, end, frame });

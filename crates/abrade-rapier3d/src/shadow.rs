@@ -3,7 +3,7 @@
 //! Valid for as long as Rapier's numbers are bit for bit those that were written with it: an
 //! embedder who moves a body, or a step of Rapier's own, makes it void by itself.
 
-use abrade::State;
+use abrade::{PhysicsError, State};
 use nalgebra::{Isometry3, Translation3};
 use rapier::dynamics::RigidBody;
 use rapier::math::{Pose, Vector};
@@ -60,6 +60,15 @@ pub(crate) fn read(body: &RigidBody, shadow: Option<&Shadow>, frame: &Isometry3<
     match shadow {
         Some(shadow) if shadow.holds(body) => shadow.seen_from(body, frame),
         _ => held(body).seen_from(frame),
+    }
+}
+
+/// An error for a state, `time` [s] into a step, that Rapier's numbers cannot say.
+pub(crate) fn check(state: &State, time: f64) -> Result<(), PhysicsError> {
+    let parts = [&state.position.coords, &state.velocity, &state.spin];
+    match parts.iter().all(|part| part.iter().all(|x| scalar::holds(*x))) {
+        true => Ok(()),
+        false => Err(PhysicsError::NotFinite { time }),
     }
 }
 

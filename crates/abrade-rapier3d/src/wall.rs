@@ -21,7 +21,7 @@ use crate::track::Track;
 use crate::tracked::Tracked;
 use crate::view::WorldView;
 use crate::world::{Integrated, WearWorld};
-use crate::{derive, scalar};
+use crate::{derive, scalar, shadow};
 
 /// Reach of the part of a wall that an encounter is made with, in radii of the body.
 const PART: f64 = 6.0;
@@ -182,6 +182,7 @@ impl WearWorld {
         tracked.book(&booking, &[(*surface, volume)], &mut self.events);
         self.counters.add(&advance);
         if let Some(end) = end {
+            shadow::check(&end, advance.time)?;
             self.integrated.push(Integrated { body: *body, end, frame });
             self.current.carried.push((*body, *reach));
             self.taken.add_wall(*body, wall);
