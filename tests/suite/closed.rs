@@ -318,7 +318,7 @@ fn a_cube_that_wears_is_thrown_on_a_floor() {
         let dv = (end.velocity - other.velocity).norm();
         println!("{name}: W {w:.4e} {heavy:.4e} v {dv:.1e} numerical {numerical:.1e}");
         assert!(w > 0.0 && (heavy / w - 1.0).abs() < 1e-4, "{name}: {w:e} {heavy:e}");
-        assert!(dv < 1e-3 && numerical.abs() < 1e-2, "{name}: {dv:e} {numerical:e}");
+        assert!(dv < 1e-3 && numerical.abs() < 5e-3, "{name}: {dv:e} {numerical:e}");
     }
 }
 

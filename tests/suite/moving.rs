@@ -57,6 +57,8 @@ struct Meeting {
     state: State,
     pose: Isometry3<f64>,
     carrier: Option<Carrier>,
+    /// Of the plate's nodes.
+    pitch: f64,
 }
 
 /// What is left of a meeting.
@@ -79,12 +81,20 @@ impl Meeting {
             spin: Vector3::new(0.1, 0.4, -0.3),
         };
         let pose = Isometry3::identity();
-        Self { shape: shape.clone(), inertia, laws: laws.clone(), state, pose, carrier: None }
+        Self {
+            shape: shape.clone(),
+            inertia,
+            laws: laws.clone(),
+            state,
+            pose,
+            carrier: None,
+            pitch: 0.03,
+        }
     }
 
     /// Through `time` in calls of `step`.
     fn run(self, time: f64, step: f64) -> Parting {
-        let strip = HexStrip { length: 3.0, width: 2.0, pitch: 0.03, rest_area: None };
+        let strip = HexStrip { length: 3.0, width: 2.0, pitch: self.pitch, rest_area: None };
         let mut surface = Surface::hex_strip(strip, self.laws).expect("a plate");
         let mut body = Body {
             shape: self.shape,
@@ -188,7 +198,7 @@ fn a_body_and_its_free_plate_keep_their_momentum() {
 }
 
 fn copy(case: &Meeting) -> Meeting {
-    let Meeting { shape, inertia, laws, state, pose, carrier } = case;
+    let Meeting { shape, inertia, laws, state, pose, carrier, pitch } = case;
     Meeting {
         shape: shape.clone(),
         inertia: *inertia,
@@ -196,6 +206,7 @@ fn copy(case: &Meeting) -> Meeting {
         state: *state,
         pose: *pose,
         carrier: *carrier,
+        pitch: *pitch,
     }
 }
 
@@ -206,6 +217,8 @@ fn a_turning_plate_turns_a_ball_as_a_still_plate_slows_it() {
     let [(_, shape, inertia), ..] = &bodies()[..] else { panic!("a ball") };
     for (name, laws) in laws() {
         let mut case = Meeting::new(shape, *inertia, &laws);
+        // The lattice turns below the ball, so that other nodes are met.
+        case.pitch = 0.015;
         case.state.velocity = -Vector3::z();
         case.state.position = Point3::new(0.0, 0.0, 0.501);
         let mut still = copy(&case);
@@ -219,7 +232,6 @@ fn a_turning_plate_turns_a_ball_as_a_still_plate_slows_it() {
         let [taken, slowed] = [end.body.state.spin.z, spin.z + still.body.state.spin.z];
         println!("{name}: W {w:.1e} spin {taken:.4} {slowed:.4}");
         assert!(w.abs() < 2e-3 && slowed > 0.1, "{name}: W {w:e}, slowed by {slowed}");
-        // The lattice turns below the ball, so that other nodes are met.
-        assert!((taken / slowed - 1.0).abs() < 2e-2, "{name}: {taken} {slowed}");
+        assert!((taken / slowed - 1.0).abs() < 1e-2, "{name}: {taken} {slowed}");
     }
 }

@@ -8,6 +8,7 @@ use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use crate::derive;
 use crate::event::Refusal;
 use crate::gate::{Course, Lead, Lie};
+use crate::obstacle::Search;
 use crate::path::Extent;
 use crate::start::Scene;
 use crate::surface::SurfaceId;
@@ -77,15 +78,14 @@ impl Scene<'_> {
         free: RigidBodyHandle,
         course: &Course,
     ) -> bool {
-        let colliders = &*self.world.colliders;
         let reach = self.reach_of(rb, lead, course);
         let other = |lie: &Lie| lie.lead.and_then(|l| l.free).is_none_or(|f| f.body != free);
         if self.lies.iter().any(|lie| other(lie) && lie.extent.meets(&reach)) {
             return true;
         }
-        let track = Track::still(reach);
-        let frame = Isometry3::identity();
-        let both = [body, free];
-        self.obstacles.in_way(&both, rb.colliders(), &track, &frame, colliders).is_some()
+        let (track, frame) = (&Track::still(reach), &Isometry3::identity());
+        let (bodies, own) = (&[body, free][..], rb.colliders());
+        let search = Search { bodies, own, track, frame, colliders: self.world.colliders };
+        self.obstacles.in_way(&search).is_some()
     }
 }

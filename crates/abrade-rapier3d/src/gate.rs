@@ -8,7 +8,7 @@ use rapier::geometry::{Collider, ColliderSet};
 
 use crate::event::Refusal;
 use crate::free::Free;
-use crate::obstacle::{Obstacles, interact};
+use crate::obstacle::{Obstacles, Search, interact};
 use crate::path::Extent;
 use crate::surface::{SurfaceId, WornCollider};
 use crate::track::Track;
@@ -316,8 +316,9 @@ impl Way<'_> {
     }
 
     fn on(&self, track: &Track) -> Option<Refusal> {
-        let own = self.rb.colliders();
-        let found = self.obstacles.in_way(&[self.body], own, track, &self.frame, self.colliders);
+        let (bodies, own) = (&[self.body][..], self.rb.colliders());
+        let (frame, colliders) = (&self.frame, self.colliders);
+        let found = self.obstacles.in_way(&Search { bodies, own, track, frame, colliders });
         found.map(|collider| Refusal::Obstructed { collider })
     }
 }

@@ -26,6 +26,17 @@ struct Obstacle {
     track: Option<usize>,
 }
 
+/// What is asked of the obstacles: which collider could `own` ones run into?
+pub(crate) struct Search<'a> {
+    /// Bodies whose colliders do not count.
+    pub bodies: &'a [RigidBodyHandle],
+    pub own: &'a [ColliderHandle],
+    /// Where they may be over the step, in `frame`.
+    pub track: &'a Track,
+    pub frame: &'a Isometry3<f64>,
+    pub colliders: &'a ColliderSet,
+}
+
 /// The colliders of a step that bodies may run into.
 #[derive(Default)]
 pub(crate) struct Obstacles {
@@ -151,18 +162,10 @@ impl Obstacles {
         !own.into_iter().any(meets)
     }
 
-    /// A collider that the colliders `own` could run into on `track`, given in `frame`; those of
-    /// `bodies` do not count.
-    pub fn in_way(
-        &self,
-        bodies: &[RigidBodyHandle],
-        own: &[ColliderHandle],
-        track: &Track,
-        frame: &Isometry3<f64>,
-        colliders: &ColliderSet,
-    ) -> Option<ColliderHandle> {
+    /// A collider that is in the way.
+    pub fn in_way(&self, search: &Search<'_>) -> Option<ColliderHandle> {
         let mut first = None;
-        self.visit(bodies, own, track, frame, colliders, |found| {
+        self.visit(search, |found| {
             first = Some(found);
             false
         });
@@ -170,16 +173,9 @@ impl Obstacles {
     }
 
     /// All of them, in the order of their handles.
-    pub fn all_in_way(
-        &self,
-        bodies: &[RigidBodyHandle],
-        own: &[ColliderHandle],
-        track: &Track,
-        frame: &Isometry3<f64>,
-        colliders: &ColliderSet,
-    ) -> Vec<ColliderHandle> {
+    pub fn all_in_way(&self, search: &Search<'_>) -> Vec<ColliderHandle> {
         let mut all = Vec::new();
-        self.visit(bodies, own, track, frame, colliders, |found| {
+        self.visit(search, |found| {
             all.push(found);
             true
         });
@@ -189,15 +185,8 @@ impl Obstacles {
     }
 
     /// Shows them, slice of time by slice, for as long as `go_on` says so.
-    fn visit(
-        &self,
-        bodies: &[RigidBodyHandle],
-        own: &[ColliderHandle],
-        track: &Track,
-        frame: &Isometry3<f64>,
-        colliders: &ColliderSet,
-        mut go_on: impl FnMut(ColliderHandle) -> bool,
-    ) {
+    fn visit(&self, search: &Search<'_>, mut go_on: impl FnMut(ColliderHandle) -> bool) {
+        let Search { bodies, own, track, frame, colliders } = *search;
         let regions = track.slices().iter().enumerate();
         for (number, region) in regions.filter_map(|(i, region)| Some((i, region.as_ref()?))) {
             let world_box = region.placed_by(frame);

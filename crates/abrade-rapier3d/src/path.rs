@@ -4,6 +4,7 @@ use nalgebra::{Isometry3, Point3, Vector3};
 
 /// A box along the axes of some frame [m].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Extent {
     pub low: Point3<f64>,
     pub high: Point3<f64>,
@@ -57,6 +58,11 @@ impl Extent {
         let turn = frame.rotation.to_rotation_matrix();
         let half = turn.matrix().abs() * self.half();
         Self { low: centre - half, high: centre + half }
+    }
+
+    /// Does `other` lie in this box?
+    pub fn holds(&self, other: &Self) -> bool {
+        (0..3).all(|a| self.low[a] <= other.low[a] && other.high[a] <= self.high[a])
     }
 
     /// Half the edges [m].

@@ -15,6 +15,7 @@ use crate::settings::StepReport;
 use crate::surface::{SurfaceId, WornCollider};
 use crate::tracked::Tracked;
 use crate::view::WorldView;
+use crate::wall::Walker;
 use crate::world::{Current, WearWorld};
 use crate::{derive, free, scalar, steer};
 
@@ -74,8 +75,9 @@ impl WearWorld {
         if !self.surfaces.is_empty() && self.current.dt > 0.0 {
             world.join_new_articulations();
             self.choose(&mut world, &gravity);
-            if let Some(reach) = self.reach_of_solids(&world) {
-                let joined = self.current.reach.map_or(reach, |others| others.joined(&reach));
+            let walkers = self.walkers(&world);
+            for Walker { reach, .. } in &walkers {
+                let joined = self.current.reach.map_or(*reach, |others| others.joined(reach));
                 self.current.reach = Some(joined);
             }
             self.collect_obstacles(&world);
@@ -94,7 +96,7 @@ impl WearWorld {
                 };
                 self.resolve(self.candidates[at], &world, until, observer);
             }
-            self.strike_walls(&world);
+            self.strike_walls(&walkers, &world);
             let may_wake = !self.sleepers.is_empty();
             if may_wake || !self.held.is_empty() {
                 self.before.note(&world, &self.bodies, &self.held, may_wake);

@@ -5,7 +5,7 @@
 //! the surface. It goes through the step in Micro, if nothing else could come near it.
 
 use abrade::{Body, Encounter, Inertia, Loads, PhysicsError, State, Until};
-use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::{Collider, ColliderHandle};
 use rapier::parry::shape::TypedShape;
@@ -15,6 +15,7 @@ use crate::event::Refusal;
 use crate::free;
 use crate::gate::{Course, Lie};
 use crate::micro;
+use crate::obstacle::Search;
 use crate::path::Extent;
 use crate::surface::SurfaceId;
 use crate::track::Track;
@@ -32,21 +33,27 @@ pub(crate) struct Against {
     pub surface: SurfaceId,
     pub encounter: Encounter,
     wall: ColliderHandle,
-    /// The part of the wall, in `frame`, and where the body may be to meet no other part [m].
+    /// The part of the wall, in `frame`, and the box of the world that it is a part of.
     striker: Body,
     frame: Isometry3<f64>,
-    low: Point3<f64>,
-    high: Point3<f64>,
+    part: Extent,
 }
 
 /// A wearing body in a step.
-struct Walker {
+pub(crate) struct Walker {
     surface: SurfaceId,
     body: RigidBodyHandle,
     /// Box around wherever it may get.
-    reach: Extent,
+    pub reach: Extent,
     radius: f64,
     pose: Isometry3<f64>,
+}
+
+impl Walker {
+    /// The part of the world whose walls it may meet for a while.
+    fn part(&self) -> Extent {
+        self.reach.grown(PART * self.radius)
+    }
 }
 
 /// What a solid does beside walls.
@@ -57,14 +64,8 @@ enum Beside {
 }
 
 impl WearWorld {
-    /// The boxes around wherever dynamic bodies of solids may get in the step.
-    pub(crate) fn reach_of_solids(&self, world: &WorldView<'_>) -> Option<Extent> {
-        let walkers = self.walkers(world).into_iter().map(|walker| walker.reach);
-        walkers.reduce(|a, b| a.joined(&b))
-    }
-
     /// Dynamic bodies, awake, whose only solid collider is the proxy of a closed surface.
-    fn walkers(&self, world: &WorldView<'_>) -> Vec<Walker> {
+    pub(crate) fn walkers(&self, world: &WorldView<'_>) -> Vec<Walker> {
         let dt = self.current.dt;
         let walker = |lie: &Lie| {
             let lead = lie.lead?;
@@ -81,17 +82,16 @@ impl WearWorld {
     }
 
     /// Takes dynamic bodies of solids through the step that strike nothing but one wall.
-    pub(crate) fn strike_walls(&mut self, world: &WorldView<'_>) {
-        for walker in self.walkers(world) {
-            let beside = self.beside(&walker, world);
-            let Walker { surface, body, .. } = walker;
-            match beside {
+    pub(crate) fn strike_walls(&mut self, walkers: &[Walker], world: &WorldView<'_>) {
+        for walker in walkers {
+            let (surface, body) = (walker.surface, walker.body);
+            match self.beside(walker, world) {
                 Beside::Nothing => self.leave_wall(body),
                 Beside::Bound(reason) => {
                     self.leave_wall(body);
                     self.refuse(body, surface, reason);
                 }
-                Beside::Wall(wall) => match self.strike_wall(&walker, wall, world) {
+                Beside::Wall(wall) => match self.strike_wall(walker, wall, world) {
                     Ok(true) => {}
                     Ok(false) => {
                         self.leave_wall(body);
@@ -116,9 +116,9 @@ impl WearWorld {
         let taken = self.current.carried.iter().any(|(carried, _)| carried == body)
             || self.candidates.contains(body);
         let Some(rb) = world.bodies.get(*body).filter(|_| !taken) else { return Beside::Nothing };
-        let (track, frame) = (Track::still(*reach), Isometry3::identity());
-        let own = rb.colliders();
-        let found = self.obstacles.all_in_way(&[*body], own, &track, &frame, world.colliders);
+        let (track, frame) = (&Track::still(*reach), &Isometry3::identity());
+        let (bodies, own, colliders) = (&[*body][..], rb.colliders(), &*world.colliders);
+        let found = self.obstacles.all_in_way(&Search { bodies, own, track, frame, colliders });
         let fixed = |collider: &ColliderHandle| {
             let parent = world.colliders.get(*collider).and_then(Collider::parent);
             parent.and_then(|handle| world.bodies.get(handle)).is_none_or(|rb| rb.is_fixed())
@@ -154,12 +154,10 @@ impl WearWorld {
     ) -> Result<bool, PhysicsError> {
         let Walker { surface, body, reach, .. } = walker;
         let tracked = Tracked::slot(&mut self.bodies, *body);
-        let goes_on = tracked.against.as_ref().is_some_and(|against| {
-            let part = Extent { low: against.low, high: against.high };
-            let inside =
-                (0..3).all(|a| part.low[a] <= reach.low[a] && reach.high[a] <= part.high[a]);
-            inside && against.wall == wall && against.surface == *surface
-        });
+        let goes_on = tracked
+            .against
+            .as_ref()
+            .is_some_and(|against| against.wall == wall && against.surface == *surface);
         if !goes_on {
             self.leave_wall(*body);
             let Some(against) = self.against(walker, wall, world)? else { return Ok(false) };
@@ -168,6 +166,14 @@ impl WearWorld {
         let tracked = Tracked::slot(&mut self.bodies, *body);
         let Some(against) = &mut tracked.against else { return Ok(false) };
         let frame = against.frame;
+        if !against.part.holds(reach) {
+            // The body has come to another part of the same faces: its contact goes on.
+            let part = walker.part();
+            let collider = world.colliders.get(wall);
+            let striker = collider.and_then(|collider| striker(collider, &part, &frame));
+            let Some(striker) = striker else { return Ok(false) };
+            (against.striker, against.part) = (striker, part);
+        }
         let seats = micro::seats(&[*surface], &self.lies, &frame);
         let mut placed = micro::place(&mut self.surfaces, &[*surface], &seats);
         let (loads, dt) = (Loads::default(), self.current.dt);
@@ -198,14 +204,14 @@ impl WearWorld {
         world: &WorldView<'_>,
     ) -> Result<Option<Against>, PhysicsError> {
         let frame = walker.pose;
-        let part = walker.reach.grown(PART * walker.radius);
+        let part = walker.part();
         let collider = world.colliders.get(wall);
         let striker = collider.and_then(|collider| striker(collider, &part, &frame));
         let Some(striker) = striker else { return Ok(None) };
         let met = &*self.surfaces[walker.surface.0].surface;
         let encounter = Encounter::new(&striker, [met], self.settings.encounter())?;
-        let (surface, Extent { low, high }) = (walker.surface, part);
-        Ok(Some(Against { surface, encounter, wall, striker, frame, low, high }))
+        let surface = walker.surface;
+        Ok(Some(Against { surface, encounter, wall, striker, frame, part }))
     }
 }
 

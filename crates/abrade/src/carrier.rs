@@ -47,6 +47,8 @@ pub(crate) struct Ride {
     middle: UnitQuaternion<f64>,
     /// Impulse that placed the end of the step ahead of the balance [N s].
     predicted: f64,
+    /// Longest lever of a force on it [m]; infinite below a strip.
+    lever: f64,
 }
 
 /// What one contact did to the body in a trial, about its centre of mass.
@@ -121,6 +123,9 @@ impl Carrier {
 
     /// Angular acceleration by its torque [1/s2]; zero for a led one.
     fn twisting(&self) -> f64 {
+        if self.loads.torque == Vector3::zeros() {
+            return 0.0;
+        }
         let dynamics = self.inertia.as_ref().and_then(|inertia| Dynamics::new(inertia, false));
         dynamics.map_or(0.0, |dynamics| dynamics.agility() * self.loads.torque.norm())
     }
@@ -171,10 +176,10 @@ impl Ride {
     }
 
     /// Angular momentum that placing the end of the step made [N m s].
-    fn ahead(&self, dynamics: &Dynamics) -> Vector3<f64> {
-        match dynamics.is_immovable() {
+    fn ahead(&self) -> Vector3<f64> {
+        match self.dynamics.is_immovable() {
             true => Vector3::zeros(),
-            false => self.shift.cross(&self.end.velocity) / dynamics.inverse_mass,
+            false => self.shift.cross(&self.end.velocity) / self.dynamics.inverse_mass,
         }
     }
 
@@ -245,8 +250,7 @@ impl Integrator {
                 }
                 _ => None,
             };
-            let shifted = ride.as_ref().zip(mount.as_ref());
-            self.ahead += shifted.map_or(Vector3::zeros(), |(ride, dynamics)| ride.ahead(dynamics));
+            self.ahead += ride.as_ref().map_or(Vector3::zeros(), Ride::ahead);
             self.rides.push(ride);
         }
         self.answers.clear();
@@ -390,7 +394,8 @@ impl Integrator {
     pub(crate) fn omega(&self, trial: &Trial) -> f64 {
         let reach = trial.lever();
         let of = |ride: &Ride| {
-            let lever = (trial.state.position - ride.end.position).norm() + reach;
+            let apart = (trial.state.position - ride.end.position).norm() + reach;
+            let lever = apart.min(ride.lever);
             ride.dynamics.inverse_mass + ride.dynamics.agility() * lever * lever
         };
         trial.omega(&self.dynamics, self.rides.iter().flatten().map(of).fold(0.0, f64::max))
@@ -446,6 +451,9 @@ fn depart(
         turn: Vector3::zeros(),
         middle: placed.pose.rotation,
         predicted: hand.swept.force.norm() * 0.5 * dt,
+        lever: placed.surface.ball().map_or(f64::INFINITY, |(centre, radius)| {
+            (placed.pose * centre - start.position).norm() + radius
+        }),
     };
     let mut state = start;
     ride.kick(&reaction(&hand.springs, body, &start), &carrier.loads, 0.5 * dt, &mut state);

@@ -185,11 +185,8 @@ impl Columns {
         for cut in &self.cuts {
             let index = cut.index as usize;
             let (slot, before) = (&self.candidates.slots[index], self.columns[index].squeeze);
-            if cut.lost {
-                continue;
-            }
-            let own = f64::INFINITY;
-            let Some(span) = self.swept.span(&slot.x, &slot.n, own) else { continue };
+            let span = self.swept.span(&slot.x, &slot.n, f64::INFINITY);
+            let Some(span) = span.filter(|_| !cut.lost) else { continue };
             if before != 0.0 || cut.squeeze != 0.0 {
                 let arm = slot.x + slot.n * span.low - self.middle;
                 dashpots.add(self.law.pressed(slot, &span, arm, [before, cut.squeeze]));

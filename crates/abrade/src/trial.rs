@@ -307,7 +307,9 @@ impl Integrator {
     /// A `gain` [J] of the energy is taken with the wear.
     pub(crate) fn charge(&mut self, toll: &Toll, gain: f64, state: &mut State) -> Charge {
         let guided = self.dynamics.is_guided();
-        let cost = toll.spring.friction + toll.elastic + toll.lost + self.short;
+        let flow_cost = toll.wear + toll.flow.friction;
+        let (flow_gain, spring_gain) = if flow_cost > 0.0 { (gain, 0.0) } else { (0.0, gain) };
+        let cost = toll.spring.friction + toll.elastic + toll.lost + self.short + spring_gain;
         let (scale, short) = match guided {
             true => (1.0, 0.0),
             false => balance(self.change(&toll.spring, state, |answer| &answer.sprung), cost),
@@ -315,8 +317,7 @@ impl Integrator {
         let sprung = toll.spring.scaled(scale);
         self.apply(&sprung, state);
         self.react(state, |answer| answer.sprung.scaled(scale));
-        let cost = toll.wear + toll.flow.friction;
-        let cost = if cost > 0.0 { cost + gain } else { cost };
+        let cost = flow_cost + flow_gain;
         let payment = match guided {
             true => Payment { scale: 1.0, share: 1.0 },
             false => pay(self.change(&toll.flow, state, |answer| &answer.flow), cost),

@@ -197,7 +197,7 @@ fn nothing_is_thrown_or_sinks_through() {
 }
 
 #[test]
-#[ignore = "hours; cargo test --release -p abrade-rapier3d --test contacts_f32 -- --ignored soak_of \
+#[ignore = "half an hour on two cores; cargo test --release -p abrade-rapier3d --test contacts_f32 -- --ignored soak_of \
             --nocapture"]
 fn soak_of_a_thousand_scenes() {
     let asked = std::env::var("SOAK").unwrap_or_else(|_| "0..1000".into());

@@ -143,4 +143,5 @@ fn a_cube_comes_to_rest_on_a_floor_and_wears_at_every_bounce() {
     assert!((0.3..1.0).contains(&paid), "{paid}");
     println!("numerical {:.1e}", booked / energy(&thrown()));
     assert!(last < 0.02 * energy(&thrown()), "{last}");
+    assert!(booked.abs() < 5e-3 * energy(&thrown()), "{booked}");
 }

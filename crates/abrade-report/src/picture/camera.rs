@@ -100,19 +100,13 @@ fn crossing(from: &Point3<f64>, toward: &Vector3<f64>, corners: &[Point3<f64>; 3
 
 #[cfg(test)]
 mod tests {
-    use abrade::{Material, Surface, SurfaceLaws, TriangleMesh};
+    use abrade::TriangleMesh;
 
     use super::*;
+    use crate::picture::solid::tests::surface;
 
     fn camera(mesh: &TriangleMesh, near: [f64; 3]) -> (Camera, Vector3<f64>) {
-        let material = Material {
-            hardness: 1e9,
-            shear_ratio: 0.25,
-            young: Some(1e11),
-            poisson: 0.3,
-            friction: 0.3,
-        };
-        let surface = Surface::mesh(mesh, SurfaceLaws::of(material)).expect("a surface");
+        let surface = surface(mesh);
         let (mut nodes, near) = (surface.nodes().clone(), Point3::from(near));
         let distance = |i: &usize| (nodes.rest_position[*i] - near).norm();
         let node = (0..nodes.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));

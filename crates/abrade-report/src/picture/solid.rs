@@ -235,4 +235,4 @@ fn outline(
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -5,7 +5,8 @@ use nalgebra::{Point3, Vector3};
 
 use super::*;
 
-fn surface(mesh: &TriangleMesh) -> Surface {
+/// The surface of a solid that nothing has worn.
+pub(crate) fn surface(mesh: &TriangleMesh) -> Surface {
     let material = Material {
         hardness: 1e9,
         shear_ratio: 0.25,
