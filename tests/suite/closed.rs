@@ -58,7 +58,7 @@ impl Hit {
         let settings = EncounterSettings { ledger: true, ..Default::default() };
         let mut encounter = Encounter::new(&body, [&surface], settings)?;
         let before = inertia.kinetic_energy(&state);
-        let mut placed = [Placed { surface: &mut surface, pose, carrier }];
+        let mut placed = [Placed { surface: &mut surface, pose, carrier, skin: None }];
         let loads = Loads::default();
         let done =
             encounter.advance(&mut body, &mut placed, &loads, time, Until::FirstExit, &mut ())?;
@@ -306,7 +306,7 @@ fn a_cube_that_wears_is_thrown_on_a_floor() {
             let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
             let carrier = Some(Carrier { state: cube, inertia: Some(inertia), loads });
             let pose = cube.pose();
-            let mut placed = [Placed { surface: &mut surface, pose, carrier }];
+            let mut placed = [Placed { surface: &mut surface, pose, carrier, skin: None }];
             encounter
                 .advance(&mut body, &mut placed, &loads, 1.0, Until::Duration, &mut ())
                 .expect("a contact");

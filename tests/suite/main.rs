@@ -15,3 +15,4 @@ mod shell;
 mod sphere;
 mod table;
 mod theory;
+mod two;

@@ -104,7 +104,8 @@ impl Meeting {
         };
         let settings = EncounterSettings { ledger: true, accuracy: 1e-3, ..Default::default() };
         let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
-        let mut placed = [Placed { surface: &mut surface, pose: self.pose, carrier: self.carrier }];
+        let mut placed =
+            [Placed { surface: &mut surface, pose: self.pose, carrier: self.carrier, skin: None }];
         for _ in 0..(time / step).round() as u32 {
             let (loads, until) = (Loads::default(), Until::Duration);
             encounter

@@ -66,7 +66,7 @@ fn run(elastic: ElasticLaw, flow: FlowLaw) -> (Watch, f64, f64, [Vector3<f64>; 2
     let (cube, loads) = (State::at(Point3::origin()), Loads::default());
     let carrier = Some(Carrier { state: cube, inertia: Some(inertia), loads });
     let pose = Isometry3::identity();
-    let mut placed = [Placed { surface: &mut surface, pose, carrier }];
+    let mut placed = [Placed { surface: &mut surface, pose, carrier, skin: None }];
     let mut watch = Watch::default();
     let before = body.inertia.kinetic_energy(&body.state);
     encounter

@@ -184,7 +184,7 @@ pub(crate) fn placed<'a>(
 ) -> Vec<Placed<'a>> {
     surfaces
         .zip(seats)
-        .map(|(surface, &(pose, carrier))| Placed { surface, pose, carrier })
+        .map(|(surface, &(pose, carrier))| Placed { surface, pose, carrier, skin: None })
         .collect()
 }
 

@@ -61,7 +61,7 @@ impl Candidates {
         let nodes = surface.nodes();
         self.read(&low, &high);
         surface.grid().visit(&low, &high, |i| {
-            let x = nodes.rest_position[i] - nodes.normal[i] * surface.depth(i);
+            let x = surface.position(i);
             if clearance(shape, state, &x) < reach {
                 let slot = Slot { id: i as u32, x, n: nodes.normal[i], area: nodes.rest_area[i] };
                 self.slots.push(slot);
@@ -69,6 +69,26 @@ impl Candidates {
         });
         self.slots.sort_unstable_by_key(|slot| slot.id);
         self.made = Some((*state, margin));
+    }
+
+    /// Collects the corners of `facets` that are `near`.
+    pub(crate) fn collect_corners(
+        &mut self,
+        surface: &Surface,
+        facets: &[[u32; 3]],
+        near: impl Fn(&Point3<f64>) -> bool,
+    ) {
+        self.slots.clear();
+        let nodes = surface.nodes();
+        for &id in facets.iter().flatten() {
+            let i = id as usize;
+            let x = surface.position(i);
+            if near(&x) {
+                self.slots.push(Slot { id, x, n: nodes.normal[i], area: nodes.rest_area[i] });
+            }
+        }
+        self.slots.sort_unstable_by_key(|slot| slot.id);
+        self.slots.dedup_by_key(|slot| slot.id);
     }
 
     /// Collects the nodes whose column, at or below the node, comes within `margin` [m] of the
@@ -92,7 +112,7 @@ impl Candidates {
         let nodes = surface.nodes();
         self.read(&low, &high);
         surface.grid().visit(&low, &high, |i| {
-            let x = nodes.rest_position[i] - nodes.normal[i] * surface.depth(i);
+            let x = surface.position(i);
             let n = nodes.normal[i];
             if swept.meets(&x, &n, margin, surface.reach(i as u32) - surface.depth(i)) {
                 self.slots.push(Slot { id: i as u32, x, n, area: nodes.rest_area[i] });
@@ -114,7 +134,7 @@ impl Candidates {
 }
 
 /// Bound of the distance that any point of the body moved between two poses [m].
-fn travel(shape: &Shape, from: &State, to: &State) -> f64 {
+pub(crate) fn travel(shape: &Shape, from: &State, to: &State) -> f64 {
     let shift = (to.position - from.position).norm();
     match shape.pieces() {
         [Piece::Ball(ball)] if ball.centre == Point3::origin() => shift,

@@ -61,6 +61,8 @@ pub(crate) struct Answer {
     pub sprung: Push,
     /// Dashpots over the step.
     pub damping: Push,
+    /// Two worn surfaces over the step, by which they are given back what they gave too much.
+    pub mutual: Push,
 }
 
 /// What one contact does to the body, about its centre of mass: its springs at the present
@@ -88,7 +90,7 @@ impl Hand {
 impl<'a> Placed<'a> {
     /// A surface at rest.
     pub fn at_rest(surface: &'a mut Surface, pose: Isometry3<f64>) -> Self {
-        Self { surface, pose, carrier: None }
+        Self { surface, pose, carrier: None, skin: None }
     }
 
     /// Velocity and spin of a body in `state` over the surface's material below it.
@@ -285,15 +287,21 @@ impl Integrator {
 
     /// Gives every carrier the reaction to impulses on the body at `state`.
     pub(crate) fn react(&mut self, state: &State, part: impl Fn(&Answer) -> Push) {
-        for ((ride, answer), hand) in self.rides.iter_mut().zip(&self.answers).zip(&mut self.hands)
-        {
+        self.give(state, &part);
+        for (answer, hand) in self.answers.iter().zip(&mut self.hands) {
+            let push = part(answer);
+            hand.swept.force += push.impulse;
+            hand.swept.torque += push.torque;
+        }
+    }
+
+    /// As [`Integrator::react`], for impulses that the next step should not expect.
+    pub(crate) fn give(&mut self, state: &State, part: impl Fn(&Answer) -> Push) {
+        for (ride, answer) in self.rides.iter_mut().zip(&self.answers) {
             let Some(ride) = ride else { continue };
-            let push = grip(&part(answer));
-            let back = reaction(&push, state, &ride.end);
+            let back = reaction(&grip(&part(answer)), state, &ride.end);
             ride.end.velocity += ride.dynamics.accelerate(&back.force);
             ride.end.spin += ride.dynamics.turn(&ride.end.rotation, &back.torque);
-            hand.swept.force += push.force;
-            hand.swept.torque += push.torque;
         }
     }
 

@@ -5,8 +5,10 @@ use nalgebra::Point3;
 use crate::body::State;
 use crate::columns::Columns;
 use crate::damping::{Damping, Dashpots};
+use crate::encounter::{Placed, Skin};
 use crate::error::PhysicsError;
 use crate::laws::{ElasticLaw, FlowLaw, Lateral};
+use crate::mutual::Mutual;
 use crate::patch::Patch;
 use crate::shape::{Piece, Shape};
 use crate::surface::{Surface, SurfaceLaws};
@@ -16,10 +18,12 @@ const SWEEP_PITCH: f64 = 0.1;
 const SWEEP_YIELD: f64 = 0.4;
 
 /// Reach of a candidate list in displacements of the step, and its least value in pitches: small
-/// for springs, which ask every candidate, larger for columns, which know when they are due.
+/// for springs, which ask every candidate, larger for columns, which know when they are due, and for
+/// two surfaces, whose lists are long in the making.
 const LIST_STEPS: f64 = 8.0;
 const LIST_PITCH: f64 = 0.05;
 const SWEPT_PITCH: f64 = 2.0;
+const MUTUAL_PITCH: f64 = 0.3;
 
 /// How a body meets a surface.
 #[derive(Clone, Debug)]
@@ -27,6 +31,8 @@ const SWEPT_PITCH: f64 = 2.0;
 pub(crate) enum Contact {
     Springs(Patch),
     Columns(Columns),
+    /// The body has a worn surface of its own.
+    Mutual(Box<Mutual>),
 }
 
 impl Contact {
@@ -60,11 +66,31 @@ impl Contact {
         })
     }
 
+    /// Of a body with a worn surface of its own.
+    pub(crate) fn mutual(
+        shape: &Shape,
+        skin: &Skin<'_>,
+        surface: &Surface,
+        keeps_ledger: bool,
+    ) -> Result<Self, PhysicsError> {
+        let mutual = Mutual::new(shape, skin, surface, keeps_ledger)?;
+        Ok(Self::Mutual(Box::new(mutual)))
+    }
+
+    /// True if this is the surface of the body's own, or none, that it was made with.
+    pub(crate) fn fits(&mut self, skin: Option<&Skin<'_>>, touched: bool) -> bool {
+        match (self, skin) {
+            (Self::Mutual(mutual), Some(skin)) => mutual.fits(skin, touched),
+            (Self::Springs(_) | Self::Columns(_), None) => true,
+            _ => false,
+        }
+    }
+
     /// r_s for `HertzNodes`, zero otherwise [m].
     pub(crate) fn inflation(&self) -> f64 {
         match self {
             Self::Springs(patch) => patch.inflation(),
-            Self::Columns(_) => 0.0,
+            Self::Columns(_) | Self::Mutual(_) => 0.0,
         }
     }
 
@@ -74,6 +100,7 @@ impl Contact {
             Self::Springs(patch) => patch.yield_overlap(),
             Self::Columns(_) if self.is_rigid() => f64::INFINITY,
             Self::Columns(columns) => columns.yield_overlap(),
+            Self::Mutual(mutual) => mutual.yield_overlap(),
         }
     }
 
@@ -91,11 +118,13 @@ impl Contact {
 
     /// Makes sure that the candidates cover the body at `state`, which moves by `reach` [m] in a
     /// step.
-    pub(crate) fn cover(&mut self, surface: &Surface, shape: &Shape, state: &State, reach: f64) {
+    pub(crate) fn cover(&mut self, placed: &Placed<'_>, shape: &Shape, state: &State, reach: f64) {
+        let surface = &*placed.surface;
         let margin = |pitches: f64| (LIST_STEPS * reach).max(pitches * surface.pitch());
         match self {
             Self::Springs(patch) => patch.cover(surface, shape, state, margin(LIST_PITCH)),
             Self::Columns(columns) => columns.cover(surface, shape, state, margin(SWEPT_PITCH)),
+            Self::Mutual(mutual) => mutual.cover(placed, shape, state, margin(MUTUAL_PITCH)),
         }
     }
 
@@ -104,6 +133,7 @@ impl Contact {
         match self {
             Self::Springs(patch) => patch.damping_ratio(),
             Self::Columns(columns) => columns.damping_ratio(),
+            Self::Mutual(_) => 0.0,
         }
     }
 
@@ -112,6 +142,7 @@ impl Contact {
         match self {
             Self::Springs(patch) => patch.press(laws, dashpots),
             Self::Columns(columns) => columns.press(dashpots),
+            Self::Mutual(_) => {}
         }
     }
 
@@ -120,14 +151,16 @@ impl Contact {
         match self {
             Self::Springs(patch) => patch.add_load(damping.normal_load),
             Self::Columns(columns) => columns.take_damping(damping),
+            Self::Mutual(_) => {}
         }
     }
 
     /// Largest overlap of a node with the body at `state` [m].
-    pub(crate) fn deepest(&mut self, surface: &Surface, shape: &Shape, state: &State) -> f64 {
+    pub(crate) fn deepest(&mut self, placed: &Placed<'_>, shape: &Shape, state: &State) -> f64 {
         match self {
             Self::Springs(patch) => patch.deepest(state),
-            Self::Columns(columns) => columns.deepest(surface, shape, state),
+            Self::Columns(columns) => columns.deepest(placed.surface, shape, state),
+            Self::Mutual(mutual) => mutual.deepest(placed, state),
         }
     }
 
@@ -136,6 +169,7 @@ impl Contact {
         match self {
             Self::Springs(patch) => patch.candidates.read.take(),
             Self::Columns(columns) => columns.candidates.read.take(),
+            Self::Mutual(mutual) => mutual.take_read(),
         }
     }
 
@@ -144,6 +178,7 @@ impl Contact {
         match self {
             Self::Springs(patch) => patch.let_go(),
             Self::Columns(columns) => columns.end_contact(surface),
+            Self::Mutual(mutual) => mutual.let_go(),
         }
     }
 
@@ -152,6 +187,7 @@ impl Contact {
         match self {
             Self::Springs(patch) => patch.let_go(),
             Self::Columns(columns) => columns.forget(),
+            Self::Mutual(mutual) => mutual.let_go(),
         }
     }
 
@@ -170,6 +206,7 @@ impl Contact {
         match self {
             Self::Springs(patch) => patch.lies_on(nodes),
             Self::Columns(columns) => columns.lies_on(nodes),
+            Self::Mutual(mutual) => mutual.lies_on(nodes),
         }
     }
 }

@@ -111,6 +111,30 @@ impl HertzNodes {
 /// Range of the calibrated yield overlap H/k_w, in reference radii.
 const CALIBRATED_YIELD: [f64; 2] = [1e-4, 2e-2];
 
+/// k_w [Pa/m] of `Foundation` between two worn surfaces, by the laws of the one whose nodes they are;
+/// infinity for another law.
+pub(crate) fn coefficient_of_two(surface: &Surface, other: &Surface) -> f64 {
+    match surface.laws().elastic {
+        ElasticLaw::Foundation { stiffness } => {
+            stiffness.unwrap_or_else(|| calibrated(surface, other.size()))
+        }
+        _ => f64::INFINITY,
+    }
+}
+
+/// k_w [Pa/m] calibrated for a striker of the reference `radius` [m].
+fn calibrated(surface: &Surface, radius: f64) -> f64 {
+    let material = &surface.laws.material;
+    let young = material.young.unwrap_or(0.0);
+    let plane_strain = young / (1.0 - material.poisson * material.poisson);
+    // On a solid that is smaller than the striker, the contact is as small as the solid.
+    let radius = radius.min(surface.size());
+    let pi = std::f64::consts::PI;
+    let hertz = 16.0 * plane_strain * plane_strain / (9.0 * pi * pi * radius * material.hardness);
+    let [low, high] = CALIBRATED_YIELD.map(|d| d * radius);
+    material.hardness / (material.hardness / hertz).clamp(low, high)
+}
+
 /// The elastic coefficient of `piece` against `surface`: k_w [Pa/m], K sqrt(R_eff) [N/m^1.5], or
 /// infinity for `Rigid`.
 pub(crate) fn coefficient(surface: &Surface, piece: &Piece) -> f64 {
@@ -120,15 +144,7 @@ pub(crate) fn coefficient(surface: &Surface, piece: &Piece) -> f64 {
     let plane_strain = young / (1.0 - material.poisson * material.poisson);
     match laws.elastic {
         ElasticLaw::Foundation { stiffness: Some(stiffness) } => stiffness,
-        ElasticLaw::Foundation { stiffness: None } => {
-            // On a solid that is smaller than the piece, the contact is as small as the solid.
-            let radius = reference_radius(piece).min(surface.size());
-            let pi = std::f64::consts::PI;
-            let hertz =
-                16.0 * plane_strain * plane_strain / (9.0 * pi * pi * radius * material.hardness);
-            let [low, high] = CALIBRATED_YIELD.map(|d| d * radius);
-            material.hardness / (material.hardness / hertz).clamp(low, high)
-        }
+        ElasticLaw::Foundation { stiffness: None } => calibrated(surface, reference_radius(piece)),
         ElasticLaw::HertzNodes { node_radius, convention } => {
             let doubled = match convention {
                 HertzConvention::ElasticPair => 1.0,

@@ -38,6 +38,19 @@ pub struct Placed<'a> {
     /// The body that it moves with; None for a surface at rest. No two surfaces of a call share
     /// one that is free to move.
     pub carrier: Option<Carrier>,
+    /// The surface of the body itself, which this one wears as well; of an encounter made by
+    /// [`Encounter::of_two`].
+    pub skin: Option<Skin<'a>>,
+}
+
+/// The worn surface of a struck body: the nodes of both surfaces meet the facets of the other. The
+/// softer flows; of two that are as hard each takes half of every drop. The laws of the surface
+/// whose nodes flow hold, of equals those of each by half.
+pub struct Skin<'a> {
+    /// The surface of a solid within the body's shape.
+    pub surface: &'a mut Surface,
+    /// Its frame in that of the body, whose origin is the centre of mass.
+    pub pose: Isometry3<f64>,
 }
 
 /// What acts on the body beside the contact, constant over a call.
@@ -146,6 +159,21 @@ impl Encounter {
         settings: EncounterSettings,
     ) -> Result<Self, PhysicsError> {
         Integrator::new(body, surfaces, settings).map(|integrator| Self { integrator })
+    }
+
+    /// An encounter of `body`, which wears on a surface of its own, with one `surface`.
+    ///
+    /// # Errors
+    /// As [`Encounter::new`]; laws other than `Foundation`, `Eq5`, or a restitution below one; a
+    /// skin that is not the surface of a solid within the body's shape.
+    pub fn of_two(
+        body: &Body,
+        skin: &Skin<'_>,
+        surface: &Surface,
+        settings: EncounterSettings,
+    ) -> Result<Self, PhysicsError> {
+        let integrator = Integrator::of_two(body, skin, surface, settings)?;
+        Ok(Self { integrator })
     }
 
     /// Carries `body` through `duration` [s], wearing the surfaces it touches: those that the

@@ -6,8 +6,8 @@ use crate::contact::Contact;
 use crate::encounter::Placed;
 use crate::error::PhysicsError;
 use crate::extent::{bounds, clearance};
-use crate::flight::{rise_time, separation};
-use crate::integrate::{Integrator, top_speed};
+use crate::flight::{rise_time, separation, top_speed};
+use crate::integrate::Integrator;
 use crate::surface::Surface;
 
 /// Overlap at the first step, in bounding radii, above which a body counts as started inside.
@@ -79,6 +79,7 @@ impl Integrator {
         }
         self.touching = false;
         self.touched = false;
+        self.owed = 0.0;
     }
 
     /// Distance between the boxes of the body and of the first surface [m].

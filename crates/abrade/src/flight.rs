@@ -4,6 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use crate::body::{Body, State};
 use crate::contact::Contact;
+use crate::encounter::{Loads, Placed};
 use crate::extent::{bounds, clearance};
 use crate::shape::Piece;
 use crate::surface::Surface;
@@ -11,15 +12,16 @@ use crate::surface::Surface;
 /// Reach of the columns that a flight looks at, in pitches.
 const COLUMNS_PITCH: f64 = 4.0;
 
-/// Time [s] in which a body that moves as `local` as seen from `surface`, with an `acceleration` at
+/// Time [s] in which a body that moves as `local` as seen from the surface `placed`, with an `acceleration` at
 /// most [m/s2], cannot touch it; zero when it may touch at once.
 pub(crate) fn free_time(
     contact: &mut Contact,
-    surface: &Surface,
+    placed: &Placed<'_>,
     body: &Body,
     local: &State,
     acceleration: f64,
 ) -> f64 {
+    let surface = &*placed.surface;
     let apart = box_time(surface, body, local, acceleration, contact.inflation());
     if apart > 0.0 {
         return apart;
@@ -29,6 +31,7 @@ pub(crate) fn free_time(
         let velocity = local.velocity + local.spin.cross(&(centre - local.position));
         speed = speed.min(velocity.norm() + local.spin.norm() * radius);
     }
+    let margin = 0.5 * surface.pitch();
     let patch = match contact {
         Contact::Springs(patch) => patch,
         // Over a flat surface the box of the nodes says all.
@@ -37,8 +40,14 @@ pub(crate) fn free_time(
             columns.cover(surface, &body.shape, local, COLUMNS_PITCH * surface.pitch());
             return time_to_close(columns.room(&body.shape, local), speed, acceleration);
         }
+        Contact::Mutual(mutual) => {
+            let Some(skin) = &placed.skin else { return 0.0 };
+            mutual.cover(placed, &body.shape, local, margin);
+            let slack = mutual.slack(&body.shape, local).max(0.0);
+            let covered = time_to_close(slack, speed, acceleration);
+            return mutual.time_to_touch(skin, local, speed, acceleration).min(covered);
+        }
     };
-    let margin = 0.5 * surface.pitch();
     patch.cover(surface, &body.shape, local, margin);
     let covered = time_to_close(patch.slack(&body.shape, local).max(0.0), speed, acceleration);
     patch.time_to_touch(local, speed, acceleration).min(covered)
@@ -124,6 +133,22 @@ pub(crate) fn time_to_close(gap: f64, speed: f64, acceleration: f64) -> f64 {
     // The stable form of the root of gap = speed t + acceleration t^2 / 2.
     let time = if speed > 0.0 { 2.0 * gap / (speed + root) } else { (root - speed) / acceleration };
     if time.is_nan() { f64::INFINITY } else { time }
+}
+
+/// Bound of the speed of any point of the body as the surface sees it [m/s], where they can meet:
+/// what lies outside of a solid does not matter to it.
+pub(crate) fn top_speed(placed: &Placed<'_>, body: &Body) -> f64 {
+    let [velocity, spin] = placed.relative(&body.state);
+    let fastest = velocity.norm() + spin.norm() * body.shape.bounding_radius();
+    let Some((centre, radius)) = placed.surface.ball() else { return fastest };
+    let arm = placed.pose * centre - body.state.position;
+    fastest.min((velocity + spin.cross(&arm)).norm() + spin.norm() * radius)
+}
+
+/// Bound of the acceleration between body and surface out of contact [m/s2].
+pub(crate) fn acceleration(placed: &Placed<'_>, body: &Body, loads: &Loads) -> f64 {
+    let carrier = placed.carrier.as_ref().map_or(0.0, |c| c.acceleration(&body.state));
+    loads.acceleration(&body.inertia) + carrier
 }
 
 /// Lever by which spin moves the body's outline [m].

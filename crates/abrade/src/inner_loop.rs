@@ -4,6 +4,7 @@
 use nalgebra::{Isometry3, Vector3};
 
 use crate::candidates::Slot;
+use crate::carried::Grip;
 use crate::elastic::Elastic;
 use crate::flow::Flow;
 use crate::ledger::Ledger;
@@ -19,7 +20,12 @@ pub(crate) struct InnerLoop<'a, E, F, Q> {
     pub motion: &'a Motion,
     /// Yield overlap on a closed surface [m]; infinite on a flat one.
     pub jump: f64,
+    /// Share of its area that a node stands for.
+    pub share: f64,
 }
+
+/// The candidates, their springs at the start of a step, and those at its end.
+pub(crate) type Columns<'a> = (&'a [Slot], &'a [Spring], &'a mut [Spring]);
 
 /// What the nodes of a patch do to the body at the end of a step.
 #[derive(Clone, Copy, Debug, Default)]
@@ -41,10 +47,17 @@ pub(crate) struct Reaction {
     pub lever_squared: f64,
     /// Nodes that carry force.
     pub touching: usize,
+    /// Work of the normal forces on what the striker gave way by [J].
+    pub way_work: f64,
     pub ledger: Ledger,
 }
 
 impl Reaction {
+    /// Force and torque on the body.
+    pub(crate) fn grip(&self) -> Grip {
+        Grip { force: self.force, torque: self.torque }
+    }
+
     /// Adds the reaction of another surface, whose frame is `pose`.
     pub(crate) fn add(&mut self, other: &Self, pose: &Isometry3<f64>) {
         self.force += pose * other.force;
@@ -56,18 +69,21 @@ impl Reaction {
         self.overlap_change = self.overlap_change.max(other.overlap_change);
         self.lever_squared = self.lever_squared.max(other.lever_squared);
         self.touching += other.touching;
+        self.way_work += other.way_work;
         self.ledger += other.ledger;
     }
 }
 
 impl<E: Elastic, F: Flow, Q: Query> InnerLoop<'_, E, F, Q> {
-    /// Takes every candidate from its `old` spring to its `new` one.
-    pub(crate) fn run<const LEDGER: bool>(
-        &self,
-        slots: &[Slot],
-        old: &[Spring],
-        new: &mut [Spring],
-    ) -> Reaction {
+    /// Takes every candidate from its old spring to its new one.
+    pub(crate) fn book(&self, keeps_ledger: bool, columns: Columns<'_>) -> Reaction {
+        match keeps_ledger {
+            true => self.run::<true>(columns),
+            false => self.run::<false>(columns),
+        }
+    }
+
+    fn run<const LEDGER: bool>(&self, (slots, old, new): Columns<'_>) -> Reaction {
         let mut sum = Reaction::default();
         let mut node = NodeStep {
             query: self.query,
@@ -97,7 +113,7 @@ impl<E: Elastic, F: Flow, Q: Query> InnerLoop<'_, E, F, Q> {
                 let arm = if turns { self.query.touch(&slot.x, &slot.n).arm } else { zero };
                 node.heading = self.motion.heading(&arm, &slot.n);
             }
-            (node.x, node.area) = (slot.x, slot.area);
+            (node.x, node.area) = (slot.x, slot.area * self.share);
             match resolve(&self.flow, &mut node, old, self.motion) {
                 Some(answer) => {
                     sum.take(&answer, &node);
@@ -113,7 +129,7 @@ impl<E: Elastic, F: Flow, Q: Query> InnerLoop<'_, E, F, Q> {
                         // Let go while pressed: the body has come round to the other side of it.
                         if touch.overlap > 0.0 {
                             sum.ledger.history +=
-                                stored(self.elastic, touch.coefficient, old, slot.area);
+                                stored(self.elastic, touch.coefficient, old, node.area);
                         }
                     }
                     new.release();
@@ -128,7 +144,7 @@ impl Reaction {
     /// Adds what one node does.
     #[inline(always)]
     fn take<E: Elastic, Q>(&mut self, answer: &Answer, node: &NodeStep<'_, E, Q>) {
-        let Answer { spring, loaded: k, overlap_change } = answer;
+        let Answer { spring, loaded: k, overlap_change, given_way } = answer;
         let coefficient = k.touch.coefficient;
         let force = k.touch.contact_normal * k.normal_force + k.tangential;
         self.force -= force;
@@ -144,6 +160,7 @@ impl Reaction {
         }
         self.overlap_change = self.overlap_change.max(*overlap_change);
         self.lever_squared = self.lever_squared.max(k.touch.arm.norm_squared());
+        self.way_work += k.normal_force * given_way;
         self.touching += 1;
     }
 }

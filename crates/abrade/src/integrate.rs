@@ -10,10 +10,10 @@ use crate::body::{Body, State};
 use crate::carrier::{Answer, Hand, Ride, carriers_energy, flight_limit};
 use crate::contact::Contact;
 use crate::damping::{Damping, Dashpots};
-use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Until};
+use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Skin, Until};
 use crate::error::PhysicsError;
 use crate::exit::engulfed;
-use crate::flight::{free_time, time_to_close};
+use crate::flight::{acceleration, free_time, time_to_close, top_speed};
 use crate::ledger::Ledger;
 use crate::rotation::Dynamics;
 #[cfg(feature = "state")]
@@ -82,6 +82,8 @@ pub(crate) struct Integrator {
     pub(crate) dashpots: Dashpots,
     /// Energy that projections with springs were short of [J].
     pub(crate) short: f64,
+    /// Energy by which two worn surfaces gave way too much, not yet given back [J].
+    pub(crate) owed: f64,
     ledger: Ledger,
 }
 
@@ -91,15 +93,36 @@ impl Integrator {
         surfaces: impl IntoIterator<Item = &'a Surface>,
         settings: EncounterSettings,
     ) -> Result<Self, PhysicsError> {
+        let mut contacts = Vec::new();
+        for surface in surfaces {
+            let contact = Contact::new(&body.shape, surface, settings.ledger)?;
+            contacts.push((contact, surface));
+        }
+        Self::with_contacts(body, contacts, settings)
+    }
+
+    /// Of a body with a worn surface of its own.
+    pub(crate) fn of_two(
+        body: &Body,
+        skin: &Skin<'_>,
+        surface: &Surface,
+        settings: EncounterSettings,
+    ) -> Result<Self, PhysicsError> {
+        let contact = Contact::mutual(&body.shape, skin, surface, settings.ledger)?;
+        Self::with_contacts(body, vec![(contact, surface)], settings)
+    }
+
+    fn with_contacts(
+        body: &Body,
+        pairs: Vec<(Contact, &Surface)>,
+        settings: EncounterSettings,
+    ) -> Result<Self, PhysicsError> {
         let dynamics = Dynamics::new(&body.inertia, body.rotation_locked).ok_or(
             PhysicsError::Unsupported { what: "the body's mass or inertia is not positive" },
         )?;
-        let (mut contacts, mut node_counts, mut renewals) = (Vec::new(), Vec::new(), Vec::new());
-        for surface in surfaces {
-            contacts.push(Contact::new(&body.shape, surface, settings.ledger)?);
-            node_counts.push(surface.nodes().len());
-            renewals.push(surface.renewals());
-        }
+        let node_counts = pairs.iter().map(|(_, surface)| surface.nodes().len()).collect();
+        let renewals = pairs.iter().map(|(_, surface)| surface.renewals()).collect();
+        let contacts: Vec<_> = pairs.into_iter().map(|(contact, _)| contact).collect();
         Ok(Self {
             settings,
             dynamics,
@@ -121,6 +144,7 @@ impl Integrator {
             answers: Vec::new(),
             ahead: Vector3::zeros(),
             short: 0.0,
+            owed: 0.0,
             ledger: Ledger::default(),
         })
     }
@@ -157,6 +181,11 @@ impl Integrator {
         }
         let contacts = self.contacts.iter_mut().zip(&mut self.renewals).zip(surfaces);
         for ((contact, renewals), placed) in contacts {
+            if !contact.fits(placed.skin.as_ref(), self.touched) {
+                return Err(PhysicsError::Unsupported {
+                    what: "the body's own surface is not the one that the encounter was made with",
+                });
+            }
             if *renewals == placed.surface.renewals() {
                 continue;
             }
@@ -240,7 +269,7 @@ impl Integrator {
         for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
             let local = placed.sees(&body.state);
             let acceleration = acceleration(placed, body, loads);
-            free = free.min(free_time(contact, placed.surface, body, &local, acceleration));
+            free = free.min(free_time(contact, placed, body, &local, acceleration));
         }
         let scale = FLOOR * self.yield_overlap();
         let time = |placed: &Placed<'_>| {
@@ -373,8 +402,8 @@ impl Integrator {
     ) -> impl Iterator<Item = f64> + 'a {
         self.contacts.iter_mut().zip(surfaces).map(|(contact, placed)| {
             let local = placed.sees(&body.state);
-            contact.cover(placed.surface, &body.shape, &local, 0.0);
-            contact.deepest(placed.surface, &body.shape, &local)
+            contact.cover(placed, &body.shape, &local, 0.0);
+            contact.deepest(placed, &body.shape, &local)
         })
     }
 
@@ -382,6 +411,7 @@ impl Integrator {
     pub(crate) fn lose_springs(&mut self) {
         self.pull = Pull::default();
         (self.touching, self.touched) = (false, false);
+        self.owed = 0.0;
         self.ledger.history += std::mem::take(&mut self.ledger.elastic);
     }
 
@@ -426,22 +456,6 @@ pub(crate) fn rejected(trial: &Trial, dt: f64, allowed: f64) -> Option<f64> {
     }
 }
 
-/// Bound of the speed of any point of the body as the surface sees it [m/s], where they can meet:
-/// what lies outside of a solid does not matter to it.
-pub(crate) fn top_speed(placed: &Placed<'_>, body: &Body) -> f64 {
-    let [velocity, spin] = placed.relative(&body.state);
-    let fastest = velocity.norm() + spin.norm() * body.shape.bounding_radius();
-    let Some((centre, radius)) = placed.surface.ball() else { return fastest };
-    let arm = placed.pose * centre - body.state.position;
-    fastest.min((velocity + spin.cross(&arm)).norm() + spin.norm() * radius)
-}
-
-/// Bound of the acceleration between body and surface out of contact [m/s2].
-fn acceleration(placed: &Placed<'_>, body: &Body, loads: &Loads) -> f64 {
-    let carrier = placed.carrier.as_ref().map_or(0.0, |c| c.acceleration(&body.state));
-    loads.acceleration(&body.inertia) + carrier
-}
-
 #[cfg(feature = "state")]
 impl Integrator {
     pub(crate) fn checked(self) -> Result<Self, Fault> {
@@ -454,7 +468,7 @@ impl Integrator {
         let mut pairs = self.contacts.iter().zip(&self.node_counts);
         let within = pairs.all(|(contact, &nodes)| contact.lies_on(nodes));
         require(same && within, "a candidate is no node of its surface")?;
-        let energies = finite(&[self.energy_before, self.short]);
+        let energies = finite(&[self.energy_before, self.short, self.owed]);
         let hands = self.hands.iter().all(Hand::is_finite);
         let finite = energies && hands && self.pull.is_finite();
         require(finite, "the forces of a contact are not finite")?;

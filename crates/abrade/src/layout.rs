@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::Point3;
 
+use crate::grid::Grid;
 use crate::medial::reaches;
 use crate::nodes::Nodes;
 use crate::solid::Solid;
@@ -37,6 +38,26 @@ impl Layout {
         Some(Self::Mesh(Arc::new(Meshed { solid, reach, size })))
     }
 
+    /// Calls `visit` with every triangle whose undeformed place meets the box; of a strip with those
+    /// that have their first node in it.
+    pub(crate) fn visit_facets(
+        &self,
+        grid: &Grid,
+        low: &Point3<f64>,
+        high: &Point3<f64>,
+        mut visit: impl FnMut([u32; 3]),
+    ) {
+        match self {
+            Self::Strip { columns_rows: [columns, rows] } => grid.visit(low, high, |i| {
+                let (column, row) = (i / rows, i % rows);
+                if column + 1 < *columns && row + 1 < *rows {
+                    strip_cell(*rows, column, row).into_iter().for_each(&mut visit);
+                }
+            }),
+            Self::Mesh(meshed) => meshed.solid.visit_facets(low, high, visit),
+        }
+    }
+
     /// Triangles between neighbouring nodes.
     pub(crate) fn triangles(&self) -> Vec<[u32; 3]> {
         match self {
@@ -50,14 +71,20 @@ fn strip_triangles([columns, rows]: [usize; 2]) -> Vec<[u32; 3]> {
     let mut triangles = Vec::with_capacity(2 * columns * rows);
     for column in 0..columns.saturating_sub(1) {
         for row in 0..rows.saturating_sub(1) {
-            let [a, b] = [column * rows + row, (column + 1) * rows + row].map(|i| i as u32);
-            triangles.extend(match column % 2 {
-                0 => [[a, b, a + 1], [b, b + 1, a + 1]],
-                _ => [[a, b, b + 1], [a, b + 1, a + 1]],
-            });
+            triangles.extend(strip_cell(rows, column, row));
         }
     }
     triangles
+}
+
+/// The two triangles between a node of a strip, the next of its column, and those beside them in
+/// the next column.
+fn strip_cell(rows: usize, column: usize, row: usize) -> [[u32; 3]; 2] {
+    let [a, b] = [column * rows + row, (column + 1) * rows + row].map(|i| i as u32);
+    match column % 2 {
+        0 => [[a, b, a + 1], [b, b + 1, a + 1]],
+        _ => [[a, b, b + 1], [a, b + 1, a + 1]],
+    }
 }
 
 /// Undeformed positions about the node nearest the middle, column by column [m].

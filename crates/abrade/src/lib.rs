@@ -6,6 +6,7 @@
 #![warn(missing_docs)]
 
 mod body;
+mod boxes;
 mod candidates;
 mod carried;
 mod carrier;
@@ -21,6 +22,7 @@ mod encounter;
 mod error;
 mod exit;
 mod extent;
+mod facets;
 mod flight;
 mod flow;
 mod grid;
@@ -34,6 +36,8 @@ mod ledger;
 mod material;
 mod medial;
 mod mesh;
+mod mesh_query;
+mod mutual;
 mod node_law;
 mod nodes;
 mod patch;
@@ -64,7 +68,7 @@ pub use carried::{Carried, Grip, Met};
 pub use carrier::Carrier;
 pub use drive::{Drive, DriveSolution, Driven};
 pub use encounter::{
-    Advance, Encounter, EncounterSettings, Instant, Loads, Observer, Placed, Until,
+    Advance, Encounter, EncounterSettings, Instant, Loads, Observer, Placed, Skin, Until,
 };
 pub use error::{ParameterError, PhysicsError, ShapeError, SurfaceError};
 pub use hull::{Hull, Plane, Polyhedron, cuboid_vertices};

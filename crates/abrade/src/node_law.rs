@@ -234,6 +234,9 @@ pub(crate) struct Answer {
     pub loaded: Loaded,
     /// Change of the overlap over the step; of a node touched afresh, before it sank [m].
     pub overlap_change: f64,
+    /// What the striker gave way by before the node sank: the approach less the growth of the
+    /// overlap [m].
+    pub given_way: f64,
 }
 
 /// Takes a node through one step; None when it is out of contact at the end.
@@ -285,7 +288,11 @@ pub(crate) fn resolve<E: Elastic, Q: Query, F: Flow>(
         true => (spring.overlap - old.overlap).abs(),
         false => trial.overlap,
     };
-    Some(Answer { spring, loaded, overlap_change })
+    let given_way = match was_in_contact {
+        true => approach - (trial.overlap - old.overlap),
+        false => 0.0,
+    };
+    Some(Answer { spring, loaded, overlap_change, given_way })
 }
 
 /// The body's advance over the step, as the flow laws split it.

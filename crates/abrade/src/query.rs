@@ -4,6 +4,7 @@ use nalgebra::{Point3, Vector3};
 
 use crate::body::State;
 use crate::clump_query::ClumpQuery;
+use crate::mesh_query::MeshQuery;
 use crate::shape::{Ball, Piece};
 #[cfg(feature = "state")]
 use crate::state::{Fault, finite, positive, require};
@@ -42,12 +43,14 @@ pub(crate) struct Contactor {
     pub coefficient: f64,
 }
 
-/// The query of a whole body: a ball alone has a fast path.
+/// The query of a whole body: a ball alone has a fast path, one with a worn surface of its own goes
+/// by that.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum BodyQuery {
     Ball(BallQuery),
     Clump(ClumpQuery),
+    Mesh(Box<MeshQuery>),
 }
 
 /// A single ball.
@@ -80,6 +83,7 @@ impl BodyQuery {
         match self {
             Self::Ball(ball) => ball.place(state),
             Self::Clump(clump) => clump.place(state),
+            Self::Mesh(mesh) => mesh.place(state),
         }
     }
 }
@@ -129,6 +133,7 @@ impl BodyQuery {
         match self {
             Self::Ball(ball) => ball.check(),
             Self::Clump(clump) => clump.check(),
+            Self::Mesh(mesh) => mesh.check(),
         }
     }
 }

@@ -138,7 +138,7 @@ mod tests {
         let flat: Vec<u32> = (0..surface.nodes().len() as u32).filter(face).filter(along).collect();
         flat.iter().for_each(|&i| surface.sink(i, 1e-3));
         let (carrier, pose) = flying();
-        let mut placed = Placed { surface: &mut surface, pose, carrier: Some(carrier) };
+        let mut placed = Placed { surface: &mut surface, pose, carrier: Some(carrier), skin: None };
         assert!(placed.reweigh(1.0));
         let after = placed.carrier.expect("a carrier");
         let lost = carrier.inertia.expect("mass").mass - after.inertia.expect("mass").mass;

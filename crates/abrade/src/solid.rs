@@ -1,6 +1,7 @@
 //! The undeformed solid below a mesh surface: what lies inside it.
 
 use nalgebra::{Point3, Vector3};
+use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector as ParryVector;
 use parry3d_f64::query::PointQuery;
 use parry3d_f64::shape::{Shape, TriMesh, TriMeshFlags};
@@ -38,6 +39,19 @@ impl Solid {
     /// Facets as indices of their corners, counter-clockwise as seen from outside.
     pub(crate) fn triangles(&self) -> &[[u32; 3]] {
         self.shape.indices()
+    }
+
+    /// Calls `visit` with the corners of every facet that may meet the box.
+    pub(crate) fn visit_facets(
+        &self,
+        low: &Point3<f64>,
+        high: &Point3<f64>,
+        mut visit: impl FnMut([u32; 3]),
+    ) {
+        let [low, high] = [low, high].map(|p| parry(&p.coords));
+        let around = Aabb::new(low, high);
+        let facets = self.triangles();
+        self.shape.bvh().intersect_aabb(&around).for_each(|at| visit(facets[at as usize]));
     }
 
     /// Depth of a point below the surface [m]; zero outside.

@@ -352,6 +352,13 @@ impl Surface {
         }
     }
 
+    /// Present position of node `i` [m].
+    #[inline]
+    pub fn position(&self, i: usize) -> Point3<f64> {
+        let nodes = self.nodes();
+        nodes.rest_position[i] - nodes.normal[i] * self.depth(i)
+    }
+
     /// The laws.
     pub fn laws(&self) -> &SurfaceLaws {
         &self.laws

@@ -54,7 +54,7 @@ fn strike(
     pose: &Isometry3<f64>,
     time: f64,
 ) -> Result<(), abrade::PhysicsError> {
-    let mut placed = [Placed { surface, pose: *pose, carrier: led(pose) }];
+    let mut placed = [Placed { surface, pose: *pose, carrier: led(pose), skin: None }];
     let loads = Loads::default();
     encounter.advance(body, &mut placed, &loads, time, Until::FirstExit, &mut ()).map(|_| ())
 }

@@ -82,7 +82,8 @@ fn by_core(mut surface: Surface, start: State, carrier: Option<Carrier>) -> ByCo
     };
     let settings = EncounterSettings::default();
     let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
-    let mut placed = [Placed { surface: &mut surface, pose: Isometry3::identity(), carrier }];
+    let mut placed =
+        [Placed { surface: &mut surface, pose: Isometry3::identity(), carrier, skin: None }];
     let (loads, until) = (Loads::default(), Until::Duration);
     encounter.advance(&mut body, &mut placed, &loads, 1e-2, until, &mut ()).expect("an impact");
     let carrier = placed[0].carrier.map(|carrier| carrier.state);

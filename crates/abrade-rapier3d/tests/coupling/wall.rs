@@ -97,7 +97,7 @@ fn a_cube_wears_on_a_floor_as_in_the_core() {
     let (loads, until) = (Loads::default(), Until::Duration);
     let state = thrown();
     let carrier = Some(Carrier { state, inertia: Some(inertia()), loads });
-    let mut placed = [Placed { surface: &mut surface, pose: state.pose(), carrier }];
+    let mut placed = [Placed { surface: &mut surface, pose: state.pose(), carrier, skin: None }];
     encounter.advance(&mut floor, &mut placed, &loads, 1e-2, until, &mut ()).expect("a contact");
     let end = placed[0].carrier.expect("the cube").state;
     let wear = surface.wear_volume();

@@ -1,21 +1,23 @@
 //! One body against one surface by the return mapping: the springs of the touching nodes, a trial
 //! of a step, and its commitment.
 
+mod dashpots;
+mod two;
+
 use std::marker::PhantomData;
 
 use nalgebra::Vector3;
 
 use crate::body::State;
 use crate::candidates::{Candidates, Slot};
-use crate::damping::{Dashpots, Shear, Sprung, damping_ratio};
+use crate::damping::damping_ratio;
 use crate::elastic::{Elastic, Foundation, HertzNodes, coefficient};
 use crate::flight::time_to_close;
 use crate::flow::{CapozzaHanley, Eq5, Flow, NormalPressure, Projected};
 use crate::inner_loop::{InnerLoop, Reaction};
 use crate::laws::{ElasticLaw, FlowLaw, Lateral};
-use crate::material::Material;
-use crate::node_law::{Motion, STEEP, Spring, stored};
-use crate::query::{BodyQuery, Contactor, Query, Touch};
+use crate::node_law::{Motion, Spring, stored};
+use crate::query::{BodyQuery, Contactor, Query};
 use crate::shape::Shape;
 #[cfg(feature = "state")]
 use crate::state::{Fault, not_negative, positive, require};
@@ -34,6 +36,10 @@ pub(crate) struct Patch {
     is_closed: bool,
     /// zeta of the dashpots; zero without them.
     damping_ratio: f64,
+    /// The share of its area that a node stands for, and the part of its drops that it takes itself:
+    /// the rest is that of the facet that it leans on.
+    share: f64,
+    own: f64,
     pub(crate) candidates: Candidates,
     /// Springs at the start of the step and at its trial end, one per candidate.
     old: Vec<Spring>,
@@ -51,7 +57,6 @@ pub(crate) struct Patch {
 
 impl Patch {
     pub(crate) fn new(shape: &Shape, surface: &Surface, keeps_ledger: bool) -> Self {
-        let laws = &surface.laws;
         let contactors: Vec<_> = shape
             .pieces()
             .iter()
@@ -60,14 +65,28 @@ impl Patch {
                 coefficient: coefficient(surface, piece),
             })
             .collect();
-        let inflation = inflation(&laws.elastic);
+        let inflation = inflation(&surface.laws.elastic);
+        let yield_overlap = yield_overlap(contactors.iter().map(|c| c.coefficient), surface);
+        let query = BodyQuery::new(&contactors, inflation);
+        Self::with_query(query, inflation, yield_overlap, surface, keeps_ledger)
+    }
+
+    fn with_query(
+        query: BodyQuery,
+        inflation: f64,
+        yield_overlap: f64,
+        surface: &Surface,
+        keeps_ledger: bool,
+    ) -> Self {
         Self {
-            query: BodyQuery::new(&contactors, inflation),
+            query,
             inflation,
-            yield_overlap: yield_overlap(&contactors, surface),
+            yield_overlap,
             keeps_ledger,
             is_closed: !surface.is_flat(),
-            damping_ratio: damping_ratio(laws.restitution),
+            damping_ratio: damping_ratio(surface.laws.restitution),
+            share: 1.0,
+            own: 1.0,
             candidates: Candidates::default(),
             old: Vec::new(),
             new: Vec::new(),
@@ -97,11 +116,19 @@ impl Patch {
         if self.candidates.slack(shape, state) >= 0.0 {
             return;
         }
+        let inflation = self.inflation;
+        self.collect(&surface.laws, |candidates| {
+            candidates.collect(surface, shape, state, inflation, margin);
+        });
+    }
+
+    /// New candidates, in which the springs of those that stay are kept.
+    fn collect(&mut self, laws: &SurfaceLaws, list: impl FnOnce(&mut Candidates)) {
         let mut carried = std::mem::take(&mut self.carried);
         carried.clear();
         let pressed = self.candidates.slots.iter().zip(&self.old).filter(|(_, s)| s.overlap > 0.0);
-        carried.extend(pressed.map(|(slot, s)| (slot.id, *s, self.stored(&surface.laws, slot, s))));
-        self.candidates.collect(surface, shape, state, self.inflation, margin);
+        carried.extend(pressed.map(|(slot, s)| (slot.id, *s, self.stored(laws, slot, s))));
+        list(&mut self.candidates);
         let count = self.candidates.slots.len();
         for springs in [&mut self.old, &mut self.new] {
             springs.clear();
@@ -128,13 +155,15 @@ impl Patch {
         let touch = match &self.query {
             BodyQuery::Ball(query) => query.touch(&slot.x, &slot.n),
             BodyQuery::Clump(query) => query.touch(&slot.x, &slot.n),
+            BodyQuery::Mesh(query) => query.touch(&slot.x, &slot.n),
         };
         let (poisson, coefficient) = (laws.material.poisson, touch.coefficient);
+        let area = slot.area * self.share;
         match laws.elastic {
             ElasticLaw::HertzNodes { .. } => {
-                stored(HertzNodes::new(poisson), coefficient, spring, slot.area)
+                stored(HertzNodes::new(poisson), coefficient, spring, area)
             }
-            _ => stored(Foundation::new(poisson), coefficient, spring, slot.area),
+            _ => stored(Foundation::new(poisson), coefficient, spring, area),
         }
     }
 
@@ -155,6 +184,7 @@ impl Patch {
                 self.earliest(query, acceleration, |m| m.dot(&state.velocity))
             }
             BodyQuery::Clump(query) => self.earliest(query, acceleration, |_| speed),
+            BodyQuery::Mesh(query) => self.earliest(query.as_ref(), acceleration, |_| speed),
         }
     }
 
@@ -177,6 +207,7 @@ impl Patch {
         match &self.query {
             BodyQuery::Ball(query) => self.largest_overlap(query),
             BodyQuery::Clump(query) => self.largest_overlap(query),
+            BodyQuery::Mesh(query) => self.largest_overlap(query.as_ref()),
         }
     }
 
@@ -233,80 +264,24 @@ impl Patch {
         friction: f64,
         motion: &Motion,
     ) -> Reaction {
-        let (slots, old, new) = (&self.candidates.slots, &self.old, &mut self.new);
         let jump = if self.is_closed { self.yield_overlap } else { f64::INFINITY };
-        match (&self.query, self.keeps_ledger) {
-            (BodyQuery::Ball(query), false) => {
-                InnerLoop { elastic, flow, query, friction, motion, jump }
-                    .run::<false>(slots, old, new)
+        let Self { share, keeps_ledger, candidates, old, new, .. } = self;
+        let columns = (&candidates.slots[..], &old[..], &mut new[..]);
+        let (share, keeps_ledger) = (*share, *keeps_ledger);
+        match &self.query {
+            BodyQuery::Ball(query) => {
+                InnerLoop { elastic, flow, query, friction, motion, jump, share }
+                    .book(keeps_ledger, columns)
             }
-            (BodyQuery::Ball(query), true) => {
-                InnerLoop { elastic, flow, query, friction, motion, jump }
-                    .run::<true>(slots, old, new)
+            BodyQuery::Clump(query) => {
+                InnerLoop { elastic, flow, query, friction, motion, jump, share }
+                    .book(keeps_ledger, columns)
             }
-            (BodyQuery::Clump(query), false) => {
-                InnerLoop { elastic, flow, query, friction, motion, jump }
-                    .run::<false>(slots, old, new)
+            BodyQuery::Mesh(query) => {
+                let query = query.as_ref();
+                InnerLoop { elastic, flow, query, friction, motion, jump, share }
+                    .book(keeps_ledger, columns)
             }
-            (BodyQuery::Clump(query), true) => {
-                InnerLoop { elastic, flow, query, friction, motion, jump }
-                    .run::<true>(slots, old, new)
-            }
-        }
-    }
-
-    /// Hands over every spring that the last trial pressed or let go.
-    pub(crate) fn press(&self, laws: &SurfaceLaws, dashpots: &mut Dashpots) {
-        let material = &laws.material;
-        let poisson = material.poisson;
-        let foundation = Foundation::new(poisson);
-        let hertz = HertzNodes::new(poisson);
-        match (&laws.elastic, &self.query) {
-            (ElasticLaw::HertzNodes { .. }, BodyQuery::Ball(query)) => {
-                self.press_with(hertz, query, material, dashpots);
-            }
-            (ElasticLaw::HertzNodes { .. }, BodyQuery::Clump(query)) => {
-                self.press_with(hertz, query, material, dashpots);
-            }
-            (_, BodyQuery::Ball(query)) => self.press_with(foundation, query, material, dashpots),
-            (_, BodyQuery::Clump(query)) => self.press_with(foundation, query, material, dashpots),
-        }
-    }
-
-    fn press_with<E: Elastic, Q: Query>(
-        &self,
-        elastic: E,
-        query: &Q,
-        &Material { hardness, friction, .. }: &Material,
-        dashpots: &mut Dashpots,
-    ) {
-        for (slot, (old, new)) in self.candidates.slots.iter().zip(self.old.iter().zip(&self.new)) {
-            let overlaps = [old.overlap, new.overlap];
-            if overlaps == [0.0; 2] {
-                continue;
-            }
-            let x = slot.x - slot.n * (new.drop.normal + new.drop.lateral);
-            let touch = query.touch(&x, &slot.n);
-            let cosine = -touch.contact_normal.dot(&slot.n);
-            let [before, after] =
-                overlaps.map(|d| elastic.normal_force(touch.coefficient, d, slot.area));
-            let stored = overlaps.map(|d| elastic.normal_energy(touch.coefficient, d, slot.area));
-            dashpots.add(Sprung {
-                normal: touch.contact_normal,
-                arm: touch.arm,
-                cosine,
-                // A contact of a part of the step has the force that does the spring's work.
-                force: match overlaps {
-                    [0.0, overlap] => stored[1] / overlap,
-                    [overlap, 0.0] => stored[0] / overlap,
-                    _ => 0.5 * (before + after),
-                },
-                advance: new.overlap - old.overlap,
-                cap: slot.area * hardness / cosine.max(STEEP),
-                stored,
-                stiffness: elastic.normal_stiffness(touch.coefficient, new.overlap, slot.area),
-                shear: shear(elastic, &touch, slot.area, [old, new], friction),
-            });
         }
     }
 
@@ -321,16 +296,23 @@ impl Patch {
         self.candidates.forget();
     }
 
+    /// Sum of the normal loads of the last trial [N].
+    pub(crate) fn normal_load(&self) -> f64 {
+        self.reaction.normal_load
+    }
+
     /// Makes the last trial the state: nodes sink, springs step on.
     pub(crate) fn commit(&mut self, surface: &mut Surface) {
+        let part = self.share * self.own;
         for (slot, spring) in self.candidates.slots.iter_mut().zip(&self.new) {
             let Spring { drop, attack, .. } = *spring;
-            let total = drop.normal + drop.lateral;
+            let [normal, lateral] = [drop.normal, drop.lateral].map(|drop| part * drop);
+            let total = normal + lateral;
             if spring.overlap > 0.0 && total > 0.0 {
                 slot.x -= slot.n * total;
                 surface.sink(slot.id, total);
-                surface.gain.normal += slot.area * drop.normal;
-                surface.gain.lateral += slot.area * drop.lateral;
+                surface.gain.normal += slot.area * normal;
+                surface.gain.lateral += slot.area * lateral;
                 surface.gain.removed += slot.area * total * surface.laws.removal.share(attack);
             }
         }
@@ -339,33 +321,7 @@ impl Patch {
         let (worn, reaction) = (&mut surface.gain, &self.reaction);
         worn.peak_normal_force = worn.peak_normal_force.max(reaction.normal_load);
         worn.peak_touching = worn.peak_touching.max(reaction.touching);
-        worn.indented_area = worn.indented_area.max(reaction.normal_flow_area);
-    }
-}
-
-/// Share of friction's limit above which a tangential spring slips, to round-off.
-const SLIPS: f64 = 1.0 - 1e-9;
-
-/// The tangential spring of a node over a step. One that was touched, let go or slips has no
-/// dashpot: its change is not that of the body's way.
-fn shear<E: Elastic>(
-    elastic: E,
-    touch: &Touch,
-    area: f64,
-    [old, new]: [&Spring; 2],
-    friction: f64,
-) -> Shear {
-    let limit = friction * elastic.normal_force(touch.coefficient, new.overlap, area);
-    if old.overlap == 0.0 || new.overlap == 0.0 || new.tangential_force >= SLIPS * limit {
-        return Shear::default();
-    }
-    let overlap = 0.5 * (old.overlap + new.overlap);
-    let stiffness = elastic.tangential_stiffness(touch.coefficient, overlap, area);
-    Shear {
-        force: (old.stretch + new.stretch) * (0.5 * stiffness),
-        limit,
-        stiffness,
-        advance: new.stretch - old.stretch,
+        worn.indented_area = worn.indented_area.max(reaction.normal_flow_area / self.share);
     }
 }
 
@@ -376,24 +332,27 @@ fn inflation(elastic: &ElasticLaw) -> f64 {
     }
 }
 
-fn yield_overlap(contactors: &[Contactor], surface: &Surface) -> f64 {
+fn yield_overlap(coefficients: impl Iterator<Item = f64>, surface: &Surface) -> f64 {
     let SurfaceLaws { material, elastic, .. } = &surface.laws;
     let area = surface.least_area();
-    let of = |c: &Contactor| match elastic {
+    let of = |coefficient| match elastic {
         ElasticLaw::HertzNodes { .. } => {
-            HertzNodes::new(material.poisson).yield_overlap(c.coefficient, material.hardness, area)
+            HertzNodes::new(material.poisson).yield_overlap(coefficient, material.hardness, area)
         }
-        _ => {
-            Foundation::new(material.poisson).yield_overlap(c.coefficient, material.hardness, area)
-        }
+        _ => Foundation::new(material.poisson).yield_overlap(coefficient, material.hardness, area),
     };
-    contactors.iter().map(of).fold(f64::INFINITY, f64::min)
+    coefficients.map(of).fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(feature = "state")]
 impl Patch {
     pub(crate) fn checked(mut self) -> Result<Self, Fault> {
-        let lengths = not_negative(self.inflation) && positive(self.yield_overlap);
+        let lengths = not_negative(self.inflation)
+            && positive(self.yield_overlap)
+            && positive(self.share)
+            && self.share <= 1.0
+            && positive(self.own)
+            && self.own <= 1.0;
         require(lengths && not_negative(self.damping_ratio), "a patch is out of range")?;
         self.query.check()?;
         self.candidates.check()?;
