@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         world.bodies[lying].reset_forces(true);
         let push = if step < 6 { 0.04 } else { 0.0 };
         world.bodies[lying].add_force(Vector::X * push, true);
-        wear.sync_collider(plate, &mut world.colliders)?;
+        wear.sync_colliders(plate, &mut world.colliders)?;
         if let Err(error) = wear.step(&mut world, &(), &()) {
             // The step was taken, with that body left to Rapier.
             println!("step {step}: {error}");

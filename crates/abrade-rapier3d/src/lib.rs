@@ -70,6 +70,7 @@ mod start;
 mod steer;
 mod step;
 mod surface;
+mod tiles;
 mod track;
 mod tracked;
 mod view;

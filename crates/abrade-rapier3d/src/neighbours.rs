@@ -10,6 +10,7 @@ use rapier::geometry::{Collider, ColliderHandle};
 use crate::lockstep::meeting;
 use crate::obstacle::{Sweep, extent, interact};
 use crate::path::Extent;
+use crate::query_collider::is_of_queries;
 use crate::scalar;
 use crate::view::WorldView;
 
@@ -51,7 +52,7 @@ impl Neighbours {
             return;
         }
         for (handle, collider) in world.colliders.iter_enabled() {
-            if collider.is_sensor() || is_proxy(handle) {
+            if collider.is_sensor() || is_of_queries(collider) || is_proxy(handle) {
                 continue;
             }
             let body = collider.parent();

@@ -12,6 +12,7 @@ use rapier::parry::shape::{Cuboid, Shape};
 
 use crate::bins::Bins;
 use crate::path::Extent;
+use crate::query_collider::is_of_queries;
 use crate::scalar;
 use crate::track::{SLICES, Track};
 use crate::view::WorldView;
@@ -66,7 +67,7 @@ impl Obstacles {
         course: impl Fn(RigidBodyHandle) -> Option<&'a Track>,
     ) {
         for (handle, collider) in world.colliders.iter_enabled() {
-            if collider.is_sensor() || is_proxy(handle) {
+            if collider.is_sensor() || is_of_queries(collider) || is_proxy(handle) {
                 continue;
             }
             let body = collider.parent();

@@ -1,24 +1,28 @@
-//! Shows worn surfaces to rays, shape casts and characters: a collider beside the proxy that takes
-//! no part in contacts. Contacts never read it; the nodes stay the only state.
+//! Shows worn surfaces to rays, shape casts and characters: colliders beside the proxy that take
+//! no part in contacts, one per tile of the surface. Contacts never read them; the nodes stay the
+//! only state.
 
-use abrade::{Surface, Worn};
-use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
+use abrade::Surface;
+use nalgebra::Isometry3;
 use rapier::geometry::{
-    ColliderBuilder, ColliderHandle, ColliderSet, Group, InteractionGroups, InteractionTestMode,
-    SharedShape,
+    Collider, ColliderBuilder, ColliderHandle, ColliderSet, Group, InteractionGroups,
+    InteractionTestMode,
 };
-use rapier::parry::utils::Array2;
+use rapier::math::Pose;
 
 use crate::error::WearError;
 use crate::scalar;
 use crate::surface::SurfaceId;
+use crate::tiles::Tiles;
 use crate::world::WearWorld;
 
-/// A query collider, and how worn the surface was that it shows.
-#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
+/// The query colliders of a surface.
 pub(crate) struct Shown {
-    collider: ColliderHandle,
-    worn: Worn,
+    tiles: Tiles,
+    /// One per tile.
+    colliders: Vec<ColliderHandle>,
+    /// How often the surface had been renewed when its tiles were laid out.
+    renewals: u32,
 }
 
 /// Pairs with nothing whose test mode is `And`, as that of bodies is unless they ask otherwise;
@@ -31,130 +35,127 @@ impl WearWorld {
     pub const WORN_ONLY: InteractionGroups =
         InteractionGroups::new(Group::NONE, Group::GROUP_32, InteractionTestMode::Or);
 
-    /// The collider that shows `surface` as it is worn now: a height field through the nodes of a
-    /// strip, the facets of a solid, made
-    /// at the first call, and made anew only when something has worn since the last one. It stands
-    /// where the surface lies and has no density. It is a member of group 32 alone and lets no
-    /// group in, so it is in no contact pair.
+    /// Makes the colliders that show `surface` as it is worn now, at the first call, and at every
+    /// other one makes those anew in which something has worn since; the number of those made is
+    /// returned. Each shows a tile: of a strip a height field through 32 by 32 nodes, of a solid
+    /// 1024 neighbouring facets. They stand where the surface lies and have no density. They are
+    /// members of group 32 alone and let no group in, so they are in no contact pair.
     ///
-    /// A query without a filter sees it and the proxy, and the proxy's undeformed top comes first:
-    /// exclude the proxy, or ask with [`WearWorld::WORN_ONLY`]. A filter with groups must have
-    /// group 32 in its own filter, and the test mode `Or`: with `And` it does not see this
-    /// collider, just as no body does. Rapier's queries know a new collider from its next step
+    /// A query without a filter sees them and the proxy, and the proxy's undeformed top comes
+    /// first: exclude the proxy, or ask with [`WearWorld::WORN_ONLY`]. A filter with groups must
+    /// have group 32 in its own filter, and the test mode `Or`: with `And` it does not see these
+    /// colliders, just as no body does. Rapier's queries know a new collider from its next step
     /// on: call this before the step.
     ///
-    /// The cost is about that of reading every node once. A ray that falls exactly on a node or on
-    /// an edge between two may slip through, in `f32` two of 100 000 that fall anywhere; a ball that
-    /// is cast does not.
+    /// The cost is that of reading the nodes of the tiles made, and a look at every handle. A ray
+    /// that falls exactly on a node or on an edge between two may slip through, in `f32` two of
+    /// 100 000 that fall anywhere; a ball that is cast does not.
     ///
     /// # Errors
     /// The proxy is gone.
-    pub fn sync_collider(
+    pub fn sync_colliders(
         &mut self,
         surface: SurfaceId,
         colliders: &mut ColliderSet,
-    ) -> Result<ColliderHandle, WearError> {
+    ) -> Result<usize, WearError> {
         let frame = self.frame(surface, colliders)?;
         let worn = &mut self.surfaces[surface.0];
-        let now = worn.surface.worn();
-        let pose = scalar::to_pose(&(frame * middle(&worn.surface)));
-        let kept = worn.shown.as_mut().filter(|shown| colliders.contains(shown.collider));
-        let Some(shown) = kept else {
-            let builder = ColliderBuilder::new(worn_shape(&worn.surface))
-                .position(pose)
-                .density(scalar::narrow(0.0))
-                .collision_groups(OF_QUERIES)
-                .solver_groups(InteractionGroups::none());
-            let collider = colliders.insert(builder);
-            worn.shown = Some(Shown { collider, worn: now });
-            return Ok(collider);
-        };
-        let stale = shown.worn != now;
-        shown.worn = now;
-        let handle = shown.collider;
-        // Borrowing it mutably would already make Rapier take it for changed.
-        let moved = colliders.get(handle).is_some_and(|collider| *collider.position() != pose);
-        if let Some(collider) = colliders.get_mut(handle).filter(|_| stale || moved) {
-            collider.set_position(pose);
-            if stale {
-                collider.set_shape(worn_shape(&worn.surface));
+        let shown = worn.shown.get_or_insert_with(|| Shown::new(&worn.surface));
+        let made = shown.sync(&worn.surface, &frame, colliders);
+        worn.owned().watch();
+        Ok(made)
+    }
+
+    /// The colliders that show `surface`, one per tile; none before the first
+    /// [`WearWorld::sync_colliders`]. Those that are removed come back, under other handles, at
+    /// the next one.
+    pub fn query_colliders(&self, surface: SurfaceId) -> &[ColliderHandle] {
+        self.surfaces[surface.0].shown.as_ref().map_or(&[], |shown| &shown.colliders)
+    }
+}
+
+/// True for a collider that shows a surface: nothing runs into it.
+pub(crate) fn is_of_queries(collider: &Collider) -> bool {
+    collider.collision_groups() == OF_QUERIES
+}
+
+impl Shown {
+    fn new(surface: &Surface) -> Self {
+        let tiles = Tiles::of(surface);
+        let colliders = vec![ColliderHandle::invalid(); tiles.count()];
+        Self { tiles, colliders, renewals: surface.renewals() }
+    }
+
+    /// The tiles in which something has worn since the last look.
+    fn stale(&self, surface: &Surface) -> Vec<usize> {
+        surface.sunk().map_or_else(|| (0..self.tiles.count()).collect(), |i| self.tiles.with(i))
+    }
+
+    /// Number of the tiles made anew.
+    fn sync(
+        &mut self,
+        surface: &Surface,
+        frame: &Isometry3<f64>,
+        colliders: &mut ColliderSet,
+    ) -> usize {
+        let is_renewed = self.renewals != surface.renewals();
+        if is_renewed {
+            self.tiles.renew(surface);
+            self.renewals = surface.renewals();
+        }
+        let tiles = &self.tiles;
+        let pose = |tile| scalar::to_pose(&(frame * tiles.place(tile)));
+        // They move together: the first one tells. Borrowing one mutably would already make Rapier
+        // take it for changed.
+        let first = self.colliders.first().and_then(|handle| colliders.get(*handle));
+        let moved = first.is_none_or(|collider| *collider.position() != pose(0));
+        let mut stale = self.stale(surface).into_iter().peekable();
+        let mut made = 0;
+        for (tile, handle) in self.colliders.iter_mut().enumerate() {
+            let is_stale = stale.next_if_eq(&tile).is_some();
+            let is_missing = !colliders.contains(*handle);
+            made += usize::from(is_stale || is_missing);
+            if is_missing {
+                *handle = colliders.insert(collider(tiles, tile, surface, pose(tile)));
+            } else if let Some(collider) = colliders.get_mut(*handle).filter(|_| is_stale || moved)
+            {
+                if moved {
+                    collider.set_position(pose(tile));
+                }
+                if is_renewed {
+                    collider.set_shape(tiles.shape(tile, surface));
+                } else if is_stale {
+                    tiles.refit(tile, surface, collider);
+                }
             }
         }
-        Ok(handle)
+        made
     }
 }
 
-/// The worn shape of `surface`: a height field, or its facets.
-fn worn_shape(surface: &Surface) -> SharedShape {
-    if let Some(strip) = Strip::of(surface) {
-        return strip.field();
-    }
-    let nodes = surface.nodes();
-    let corner = |i: usize| scalar::to_vector(&nodes.position(i).coords);
-    let corners = (0..nodes.len()).map(corner).collect();
-    // Only a mesh without facets is refused.
-    SharedShape::trimesh(corners, surface.triangles()).unwrap_or_else(|_| SharedShape::ball(0.0))
+fn collider(tiles: &Tiles, tile: usize, surface: &Surface, pose: Pose) -> Collider {
+    ColliderBuilder::new(tiles.shape(tile, surface))
+        .position(pose)
+        .density(scalar::narrow(0.0))
+        .collision_groups(OF_QUERIES)
+        .solver_groups(InteractionGroups::none())
+        .build()
 }
 
-/// Where that shape lies in the surface's frame.
-fn middle(surface: &Surface) -> Isometry3<f64> {
-    Strip::of(surface).map_or_else(Isometry3::identity, |strip| strip.middle())
-}
+/// What is written of query colliders: their handles, and the order of a mesh's facets.
+#[cfg(feature = "serde-serialize")]
+pub(crate) type ShownParts = (Vec<ColliderHandle>, Vec<u32>);
 
-/// A strip as a height field.
-struct Strip<'a> {
-    surface: &'a Surface,
-    columns: usize,
-    rows: usize,
-}
-
-impl<'a> Strip<'a> {
-    fn of(surface: &'a Surface) -> Option<Self> {
-        surface.columns_rows().map(|[columns, rows]| Self { surface, columns, rows })
+#[cfg(feature = "serde-serialize")]
+impl Shown {
+    pub fn parts(&self) -> ShownParts {
+        (self.colliders.clone(), self.tiles.order().to_vec())
     }
 
-    /// Cells of the height field: columns, and half pitches along a column, which is where the
-    /// nodes of every other column lie.
-    fn cells(&self) -> [usize; 2] {
-        [self.columns.max(2) - 1, 2 * self.rows - 1]
-    }
-
-    /// Extents of a cell along x and y [m].
-    fn cell(&self) -> [f64; 2] {
-        let pitch = self.surface.pitch();
-        [0.75f64.sqrt() * pitch, 0.5 * pitch]
-    }
-
-    /// Where the height field lies in the surface's frame. Its own x, y, z are the surface's y, z,
-    /// x.
-    fn middle(&self) -> Isometry3<f64> {
-        let ([along_x, along_y], [x, y]) = (self.cells(), self.cell());
-        // A lone column stands in the middle of its cell.
-        let half = if self.columns > 1 { 0.5 * along_x as f64 * x } else { 0.0 };
-        let to_middle = Vector3::new(half, 0.5 * along_y as f64 * y, 0.0);
-        let turn = UnitQuaternion::new_unchecked(Quaternion::new(0.5, 0.5, 0.5, 0.5));
-        let first = self.surface.nodes().rest_position[0].coords;
-        Isometry3::from_parts(Translation3::from(first + to_middle), turn)
-    }
-
-    /// A height field through every node; between two nodes of a column it has their mean.
-    fn field(&self) -> SharedShape {
-        let Self { columns, rows, .. } = *self;
-        let ([along_x, along_y], [x, y]) = (self.cells(), self.cell());
-        let depth = &self.surface.nodes().depth;
-        let mut heights = Vec::with_capacity((along_x + 1) * (along_y + 1));
-        for place in 0..=along_y {
-            for column in 0..=along_x {
-                let column = column.min(columns - 1);
-                let shift = column % 2;
-                let below = place.saturating_sub(shift) / 2;
-                let above = (place + 1).saturating_sub(shift) / 2;
-                let of = |row: usize| depth[column * rows + row.min(rows - 1)];
-                heights.push(scalar::narrow(-0.5 * (of(below) + of(above))));
-            }
-        }
-        let extent = Vector3::new(along_y as f64 * y, 1.0, along_x as f64 * x);
-        let heights = Array2::new(along_x + 1, along_y + 1, heights);
-        SharedShape::heightfield(heights, scalar::to_vector(&extent))
+    /// The query colliders of `surface`; None when they cannot be its.
+    pub fn of_parts(surface: &Surface, (colliders, order): ShownParts) -> Option<Self> {
+        let tiles = Tiles::ordered(surface, order)?;
+        let renewals = surface.renewals();
+        (tiles.count() == colliders.len()).then_some(Self { tiles, colliders, renewals })
     }
 }

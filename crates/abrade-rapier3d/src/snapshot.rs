@@ -16,7 +16,7 @@ use serde::ser::{Error as _, Serialize, Serializer};
 use crate::drive::DrivenBody;
 use crate::guard::Taken;
 use crate::quasi_static::Pressing;
-use crate::query_collider::Shown;
+use crate::query_collider::{Shown, ShownParts};
 use crate::scalar;
 use crate::settings::{Counters, WearSettings};
 use crate::surface::{SurfaceId, WornCollider};
@@ -111,19 +111,27 @@ impl<'de> Deserialize<'de> for WearWorld {
 
 impl Serialize for WornCollider {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        (&*self.surface, self.proxy, self.offset, self.exact, &self.shown).serialize(to)
+        let shown = self.shown.as_ref().map(Shown::parts);
+        (&*self.surface, self.proxy, self.offset, self.exact, shown).serialize(to)
     }
 }
 
 impl<'de> Deserialize<'de> for WornCollider {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         type Exact = Option<(Pose, Isometry3<f64>)>;
-        type Parts = (Surface, ColliderHandle, Isometry3<f64>, Exact, Option<Shown>);
+        type Parts = (Surface, ColliderHandle, Isometry3<f64>, Exact, Option<ShownParts>);
         let (surface, proxy, offset, exact, shown) = Parts::deserialize(from)?;
         let exact_frame = exact.as_ref().map(|(_, frame)| frame);
         if ![Some(&offset), exact_frame].into_iter().flatten().all(is_frame) {
             return Err(D::Error::custom("the place of a surface is none"));
         }
+        let shown = match shown {
+            Some(parts) => {
+                let fault = || D::Error::custom("query colliders are not those of their surface");
+                Some(Shown::of_parts(&surface, parts).ok_or_else(fault)?)
+            }
+            None => None,
+        };
         Ok(Self { exact, shown, ..Self::new(surface, proxy, offset) })
     }
 }

@@ -4,10 +4,24 @@ use std::sync::Arc;
 
 use nalgebra::Point3;
 
+use crate::error::ParameterError;
 use crate::grid::Grid;
 use crate::medial::reaches;
 use crate::nodes::Nodes;
 use crate::solid::Solid;
+
+/// A flat strip of nodes in close-packed rows along y.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HexStrip {
+    /// Extent along x [m].
+    pub length: f64,
+    /// Extent along y [m].
+    pub width: f64,
+    /// Distance of neighbours [m].
+    pub pitch: f64,
+    /// a_s [m2]; sqrt(3)/2 pitch^2 unless given.
+    pub rest_area: Option<f64>,
+}
 
 /// The layout of a surface.
 #[derive(Clone, Debug)]
@@ -27,6 +41,31 @@ pub(crate) struct Meshed {
     pub reach: Vec<f64>,
     /// Radius of a ball of its volume [m].
     pub size: f64,
+}
+
+impl HexStrip {
+    /// A strip of the given extent [m] on which a node stands for length * width / nodes; the
+    /// pitch follows from that area.
+    pub fn with_nodes(length: f64, width: f64, nodes: f64) -> Self {
+        let area = length * width / nodes;
+        let pitch = (2.0 * area / 3f64.sqrt()).sqrt();
+        Self { length, width, pitch, rest_area: Some(area) }
+    }
+
+    /// Numbers of columns (along x) and rows (along y).
+    pub fn columns_rows(&self) -> [f64; 2] {
+        [(self.length / (self.pitch * 0.75f64.sqrt())).round(), (self.width / self.pitch).round()]
+    }
+
+    /// Every value outside its range.
+    pub fn check(&self) -> Vec<ParameterError> {
+        let area = self.rest_area.and_then(|a| ParameterError::positive("rest_area", a));
+        [("length", self.length), ("width", self.width), ("pitch", self.pitch)]
+            .into_iter()
+            .filter_map(|(field, value)| ParameterError::positive(field, value))
+            .chain(area)
+            .collect()
+    }
 }
 
 impl Layout {

@@ -121,6 +121,11 @@ impl Changes {
         Some(positions.fold([first; 2], |[low, high], p| [low.inf(&p), high.sup(&p)]))
     }
 
+    /// The changed nodes.
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = u32> {
+        self.depths.iter().map(|(id, _)| *id)
+    }
+
     /// Writes the changed depths and returns the largest [m].
     pub(crate) fn write(&self, depth: &mut [f64]) -> f64 {
         let mut deepest = 0.0f64;

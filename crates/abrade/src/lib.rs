@@ -55,6 +55,7 @@ mod shape;
 mod solid;
 #[cfg(feature = "state")]
 mod state;
+mod sunk;
 mod surface;
 #[cfg(feature = "state")]
 mod surface_state;
@@ -73,6 +74,7 @@ pub use encounter::{
 pub use error::{ParameterError, PhysicsError, ShapeError, SurfaceError};
 pub use hull::{Hull, Plane, Polyhedron, cuboid_vertices};
 pub use laws::{ElasticLaw, FlowLaw, HertzConvention, Lateral, Removal};
+pub use layout::HexStrip;
 pub use leaf::Changes;
 pub use ledger::Ledger;
 pub use material::Material;
@@ -81,5 +83,5 @@ pub use nodes::Nodes;
 pub use press::{Hold, Pressed};
 pub use renewal::{RenewError, Renewal};
 pub use shape::{Ball, Piece, Shape};
-pub use surface::{HexStrip, NODE_LIMIT, Surface, SurfaceLaws, Worn};
+pub use surface::{NODE_LIMIT, Surface, SurfaceLaws, Worn};
 pub use union_inertia::{UnionInertia, overlapping_pairs};

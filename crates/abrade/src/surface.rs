@@ -8,12 +8,13 @@ use nalgebra::{Point3, Vector3};
 use crate::error::{ParameterError, SurfaceError};
 use crate::grid::Grid;
 use crate::laws::{ElasticLaw, FlowLaw, Lateral, Removal};
-use crate::layout::{Layout, strip_positions};
+use crate::layout::{HexStrip, Layout, strip_positions};
 use crate::leaf::{Changes, Leaf};
 use crate::material::Material;
 use crate::mesh::TriangleMesh;
 use crate::nodes::Nodes;
 use crate::renewal::Past;
+use crate::sunk::Sunk;
 #[cfg(feature = "state")]
 use crate::surface_state::SurfaceState;
 
@@ -36,19 +37,6 @@ pub struct SurfaceLaws {
     /// yield dashpots still take their part while nodes load and unload, up to the cap of the flow
     /// law: less wear and less rebound. `Rigid` has no springs to damp.
     pub restitution: f64,
-}
-
-/// A flat strip of nodes in close-packed rows along y.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HexStrip {
-    /// Extent along x [m].
-    pub length: f64,
-    /// Extent along y [m].
-    pub width: f64,
-    /// Distance of neighbours [m].
-    pub pitch: f64,
-    /// a_s [m2]; sqrt(3)/2 pitch^2 unless given.
-    pub rest_area: Option<f64>,
 }
 
 /// Volumes worn off a surface [m3], and its largest load.
@@ -87,6 +75,8 @@ pub struct Surface {
     pub(crate) past: Option<Arc<Past>>,
     /// Largest depth of a node since the last renewal [m].
     pub(crate) deepest: f64,
+    /// None for a surface that nobody watches.
+    pub(crate) sunk: Option<Box<Sunk>>,
     pub(crate) laws: SurfaceLaws,
     /// What was worn until the last [`Surface::settle`], and since.
     pub(crate) worn: Worn,
@@ -116,31 +106,6 @@ impl AddAssign for Worn {
         self.peak_normal_force = self.peak_normal_force.max(other.peak_normal_force);
         self.peak_touching = self.peak_touching.max(other.peak_touching);
         self.indented_area = self.indented_area.max(other.indented_area);
-    }
-}
-
-impl HexStrip {
-    /// A strip of the given extent [m] on which a node stands for length * width / nodes; the
-    /// pitch follows from that area.
-    pub fn with_nodes(length: f64, width: f64, nodes: f64) -> Self {
-        let area = length * width / nodes;
-        let pitch = (2.0 * area / 3f64.sqrt()).sqrt();
-        Self { length, width, pitch, rest_area: Some(area) }
-    }
-
-    /// Numbers of columns (along x) and rows (along y).
-    pub fn columns_rows(&self) -> [f64; 2] {
-        [(self.length / (self.pitch * 0.75f64.sqrt())).round(), (self.width / self.pitch).round()]
-    }
-
-    /// Every value outside its range.
-    pub fn check(&self) -> Vec<ParameterError> {
-        let area = self.rest_area.and_then(|a| ParameterError::positive("rest_area", a));
-        [("length", self.length), ("width", self.width), ("pitch", self.pitch)]
-            .into_iter()
-            .filter_map(|(field, value)| ParameterError::positive(field, value))
-            .chain(area)
-            .collect()
     }
 }
 
@@ -237,6 +202,7 @@ impl Surface {
             leaf: None,
             past: None,
             deepest: 0.0,
+            sunk: None,
             laws,
             worn: Worn::default(),
             gain: Worn::default(),
@@ -280,6 +246,7 @@ impl Surface {
             leaf: None,
             past: None,
             deepest: 0.0,
+            sunk: None,
             laws,
             worn: Worn::default(),
             gain: Worn::default(),
@@ -296,6 +263,7 @@ impl Surface {
             leaf: Some(Box::new(Leaf::new(below))),
             past: below.past.clone(),
             deepest: below.deepest,
+            sunk: None,
             laws: below.laws.clone(),
             worn: below.worn(),
             gain: Worn::default(),
@@ -317,6 +285,9 @@ impl Surface {
         self.settle();
         self.deepest = self.deepest.max(changes.write(&mut self.nodes.depth));
         self.worn += *changes.gain();
+        if let Some(sunk) = &mut self.sunk {
+            changes.nodes().for_each(|id| sunk.note(id));
+        }
     }
 
     /// Books what was worn since the last call, as one sum: so a total does not depend on
@@ -436,8 +407,8 @@ impl Surface {
         }
     }
 
-    /// Facets of a mesh.
-    pub(crate) fn facets(&self) -> Option<&[[u32; 3]]> {
+    /// Facets of a mesh, with the nodes at their corners; None for a strip.
+    pub fn facets(&self) -> Option<&[[u32; 3]]> {
         match &self.layout {
             Layout::Strip { .. } => None,
             Layout::Mesh(meshed) => Some(meshed.solid.triangles()),
@@ -455,6 +426,9 @@ impl Surface {
             None => {
                 let depth = &mut self.nodes.depth[id as usize];
                 *depth += drop;
+                if let Some(sunk) = &mut self.sunk {
+                    sunk.note(id);
+                }
                 *depth
             }
             Some(leaf) => leaf.sink(id, drop),

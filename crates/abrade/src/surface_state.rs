@@ -8,6 +8,7 @@ use crate::mesh::TriangleMesh;
 use crate::nodes::Nodes;
 use crate::renewal::Past;
 use crate::state::{Fault, finite, not_negative, positive, require};
+use crate::sunk::Sunk;
 use crate::surface::{Surface, SurfaceLaws, Worn};
 
 /// Where the nodes lie.
@@ -27,6 +28,7 @@ pub(crate) struct SurfaceState {
     gain: Worn,
     depth: Vec<f64>,
     past: Option<Past>,
+    sunk: Option<Vec<u32>>,
 }
 
 impl From<Surface> for SurfaceState {
@@ -48,6 +50,7 @@ impl From<Surface> for SurfaceState {
             gain: surface.gain,
             depth: surface.nodes.depth,
             past: surface.past.map(Arc::unwrap_or_clone),
+            sunk: surface.sunk.map(|sunk| sunk.sorted()),
         }
     }
 }
@@ -56,7 +59,7 @@ impl TryFrom<SurfaceState> for Surface {
     type Error = Fault;
 
     fn try_from(state: SurfaceState) -> Result<Self, Fault> {
-        let SurfaceState { layout, pitch, laws, worn, gain, depth, past } = state;
+        let SurfaceState { layout, pitch, laws, worn, gain, depth, past, sunk } = state;
         require(positive(pitch), "the pitch of a surface is out of range")?;
         require(laws.check().is_empty(), "the laws of a surface are out of range")?;
         let whole = |w: &Worn| finite(&[w.normal, w.lateral, w.chip, w.removed]);
@@ -75,6 +78,10 @@ impl TryFrom<SurfaceState> for Surface {
             let fine = depths && sums && surface.can_be_renewed();
             require(fine, "what a surface has worn before it was renewed is out of range")?;
             surface.past = Some(Arc::new(past));
+        }
+        if let Some(nodes) = sunk {
+            let fault = Fault("the nodes of a surface that have sunk are out of range");
+            surface.sunk = Some(Box::new(Sunk::of(nodes, depth.len()).ok_or(fault)?));
         }
         (surface.worn, surface.gain) = (worn, gain);
         surface.deepest = depth.iter().copied().fold(0.0, f64::max);

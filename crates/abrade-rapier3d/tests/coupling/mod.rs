@@ -8,6 +8,7 @@ mod hail;
 mod hooks;
 mod independence;
 mod query_collider;
+mod query_tiles;
 mod rig;
 mod shadow;
 mod wall;

@@ -20,8 +20,13 @@ impl Rig {
         rig
     }
 
-    fn sync(&mut self) -> ColliderHandle {
-        self.wear.sync_collider(self.plate, &mut self.world.colliders).expect("a proxy")
+    /// Number of query colliders made anew.
+    fn sync(&mut self) -> usize {
+        self.wear.sync_colliders(self.plate, &mut self.world.colliders).expect("a proxy")
+    }
+
+    fn shown(&self) -> Vec<ColliderHandle> {
+        self.wear.query_colliders(self.plate).to_vec()
     }
 
     fn frame(&self) -> Isometry3<f64> {
@@ -39,8 +44,9 @@ impl Rig {
         hit.map(|(_, way)| high.z - scalar::wide(way))
     }
 
-    fn shape_seen(&self, collider: ColliderHandle) -> *const () {
-        std::ptr::from_ref(self.world.colliders[collider].shape()).cast()
+    fn shapes_seen(&self) -> Vec<*const ()> {
+        let shape = |handle: &ColliderHandle| self.world.colliders[*handle].shape();
+        self.shown().iter().map(|handle| std::ptr::from_ref(shape(handle)).cast()).collect()
     }
 }
 
@@ -51,7 +57,7 @@ fn a_ray_meets_every_node_where_it_is() {
     let mut rig = Rig::struck();
     let tilt = Isometry3::new(Vector3::new(0.1, 0.2, -0.3), Vector3::new(0.4, -0.7, 1.9));
     rig.world.colliders[rig.proxy].set_position(scalar::to_pose(&tilt));
-    let shown = rig.sync();
+    rig.sync();
     rig.step();
     let nodes = rig.wear[rig.plate].nodes();
     let [_, rows] = rig.wear[rig.plate].columns_rows().expect("a strip");
@@ -79,7 +85,9 @@ fn a_ray_meets_every_node_where_it_is() {
     let lowest = (0..nodes.len()).max_by(|&a, &b| nodes.depth[a].total_cmp(&nodes.depth[b]));
     let at = nodes.rest_position[lowest.expect("a node")] + shift;
     assert_eq!(rig.look_down(at, other), rig.look_down(at, WearWorld::WORN_ONLY.into()));
-    let proxy = QueryFilter::default().exclude_collider(shown);
+    let shown = rig.shown();
+    let is_other = |handle, _: &Collider| !shown.contains(&handle);
+    let proxy = QueryFilter::default().predicate(&is_other);
     assert!(rig.look_down(at, proxy).expect("the proxy").abs() < rounding, "the proxy's own top");
 }
 
@@ -88,14 +96,16 @@ fn a_ray_meets_every_node_where_it_is() {
 fn nothing_collides_with_it() {
     let run = |with: bool| {
         let mut rig = Rig::struck();
-        let shown = with.then(|| rig.sync());
+        if with {
+            rig.sync();
+        }
         let at = Vector3::new(0.255, -0.5, 0.125 + RADIUS + GAP);
         let ball = rig.ball(at, towards_plate(20.0, 60.0));
         rig.world.gravity = scalar::to_vector(&Vector3::new(0.0, 0.0, -9.81));
         for _ in 0..60 {
             rig.step();
-            let pairs = shown.map_or(0, |shown| rig.world.contact_pairs_with(shown).count());
-            assert_eq!(pairs, 0);
+            let pairs = |shown: &ColliderHandle| rig.world.contact_pairs_with(*shown).count();
+            assert!(rig.shown().iter().all(|shown| pairs(shown) == 0));
         }
         (rig.wear[rig.plate].wear_volume(), rig.state(ball), *rig.wear.counters())
     };
@@ -103,33 +113,43 @@ fn nothing_collides_with_it() {
     assert_eq!(alone, shown);
 }
 
-/// Fails for a field that is made at every call, or that stays as it was made.
+/// Fails for fields that are made at every call, or that stay as they were made.
 #[test]
-fn it_is_made_anew_only_when_something_has_worn() {
+fn they_are_made_anew_only_when_something_has_worn() {
     let mut rig = Rig::new(Vector3::zeros(), DT);
-    let shown = rig.sync();
-    let fresh = rig.shape_seen(shown);
+    let tiles = rig.sync();
+    let (shown, fresh) = (rig.shown(), rig.shapes_seen());
+    assert_eq!(tiles, shown.len());
     rig.step();
-    assert_eq!((rig.sync(), rig.shape_seen(shown)), (shown, fresh));
+    assert_eq!((rig.sync(), rig.shown(), rig.shapes_seen()), (0, shown.clone(), fresh.clone()));
     rig.ball(Vector3::z() * (RADIUS + GAP), towards_plate(60.0, 90.0));
     rig.step();
-    assert_eq!(rig.shape_seen(shown), fresh, "on demand only");
-    assert_eq!(rig.sync(), shown);
-    assert_ne!(rig.shape_seen(shown), fresh);
-    let low = scalar::wide(rig.world.colliders[shown].compute_aabb().mins.z);
+    assert_eq!(rig.shapes_seen(), fresh, "on demand only");
+    let made = rig.sync();
+    let differ = rig.shapes_seen().iter().zip(&fresh).filter(|(a, b)| a != b).count();
+    assert!(made > 0 && made == differ && rig.shown() == shown, "{made} made, {differ} differ");
+    let low =
+        |handle: &ColliderHandle| scalar::wide(rig.world.colliders[*handle].compute_aabb().mins.z);
+    let low = shown.iter().map(low).fold(0.0, f64::min);
     let deepest = rig.wear[rig.plate].worn().max_depth;
     assert!((low + deepest).abs() < scalar::ROUNDING, "{low} m, {deepest} m");
 }
 
-/// Fails for a collider that is not looked for before it is used, and for one of a proxy that is
-/// gone.
+/// Fails for colliders that are not looked for before they are used, and for those of a proxy that
+/// is gone.
 #[test]
-fn it_comes_back_when_it_was_removed() {
+fn they_come_back_when_they_were_removed() {
     let mut rig = Rig::struck();
-    let shown = rig.sync();
-    rig.world.remove_collider(shown);
-    let again = rig.sync();
-    assert!(rig.world.colliders.contains(again) && again != shown);
+    rig.sync();
+    for place in [0, 7] {
+        let before = rig.shown();
+        rig.world.remove_collider(before[place]);
+        assert_eq!(rig.sync(), 1);
+        let again = rig.shown();
+        let differ: Vec<usize> = (0..again.len()).filter(|i| again[*i] != before[*i]).collect();
+        assert_eq!(differ, [place]);
+        assert!(rig.world.colliders.contains(again[place]));
+    }
     rig.world.remove_collider(rig.proxy);
-    assert!(rig.wear.sync_collider(rig.plate, &mut rig.world.colliders).is_err());
+    assert!(rig.wear.sync_colliders(rig.plate, &mut rig.world.colliders).is_err());
 }

@@ -97,7 +97,7 @@ struct Plate {
     resolve: Resolve,
 }
 
-const STEEL: Material = Material {
+pub const STEEL: Material = Material {
     hardness: 1.7e9,
     shear_ratio: 0.25,
     young: Some(200e9),

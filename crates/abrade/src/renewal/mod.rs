@@ -159,6 +159,7 @@ impl Surface {
         self.least_area = small_area(&nodes.rest_area);
         self.nodes = nodes;
         self.deepest = 0.0;
+        self.sunk.iter_mut().for_each(|sunk| sunk.note_all());
         Some(())
     }
 }

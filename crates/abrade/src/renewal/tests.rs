@@ -6,8 +6,9 @@ use nalgebra::Vector3;
 
 use super::*;
 use crate::laws::{ElasticLaw, FlowLaw};
+use crate::layout::HexStrip;
 use crate::material::Material;
-use crate::surface::{HexStrip, SurfaceLaws};
+use crate::surface::SurfaceLaws;
 
 fn surface(mesh: &TriangleMesh) -> Surface {
     let material = Material {
