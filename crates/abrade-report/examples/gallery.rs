@@ -56,7 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let ball = Mark { label: "ball", position_local: Point3::new(1.2e-3, 0.0, 0.0) };
     for (name, title, nodes) in cases {
         let path = Path::new(&folder).join(format!("{name}.png"));
-        Picture { title, nodes, marks: &[ball] }.write(&path)?;
+        Picture { title, nodes, wear_volume: nodes.wear_volume(), marks: &[ball] }.write(&path)?;
     }
     Ok(())
 }

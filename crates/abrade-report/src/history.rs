@@ -49,7 +49,7 @@ pub struct BodyRow {
 pub struct SurfaceRow {
     /// W_V [m3].
     pub wear_volume: f64,
-    /// Largest depth [m].
+    /// Largest depth that a node has reached [m].
     pub max_depth: f64,
 }
 

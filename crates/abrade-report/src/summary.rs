@@ -188,12 +188,13 @@ impl Summary {
 }
 
 impl SurfaceSummary {
-    /// What the nodes and the tally of a surface tell. The caller adds `wear_rate`
-    /// [m2], which needs the body's path.
-    pub fn of(nodes: &Nodes, worn: &Worn) -> Self {
+    /// What the nodes since they were made ([`abrade::Surface::nodes_since_made`]), the wear volume
+    /// [m3] and the tally of a surface tell. The caller adds `wear_rate` [m2], which needs the
+    /// body's path.
+    pub fn of(nodes: &Nodes, wear_volume: f64, worn: &Worn) -> Self {
         Self {
             nodes: nodes.len(),
-            wear_volume: nodes.wear_volume(),
+            wear_volume,
             wear_volume_normal: worn.normal,
             wear_volume_lateral: worn.lateral,
             removed_volume: worn.removed,

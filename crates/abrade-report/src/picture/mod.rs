@@ -36,8 +36,10 @@ use view::View;
 pub struct Picture<'a> {
     /// Headline, usually the scene's name.
     pub title: &'a str,
-    /// The surface; drawn in its own frame, seen against its mean normal.
+    /// The surface since it was made; drawn in its own frame, seen against its mean normal.
     pub nodes: &'a Nodes,
+    /// Its wear volume, W_V [m3].
+    pub wear_volume: f64,
     /// Places to point at, such as where a body ended.
     pub marks: &'a [Mark<'a>],
 }
@@ -84,7 +86,7 @@ impl Picture<'_> {
         let top = plan.bottom + GAP;
         let section = Rect { top, bottom: top + SECTION_HEIGHT, ..plan };
         let mut canvas = Canvas::new(WIDTH, (section.bottom + FOOT) as usize)?;
-        head(&mut canvas, SIDES.0, self.title, self.nodes);
+        head(&mut canvas, SIDES.0, self.title, &caption(self.nodes, self.wear_volume));
         plan::draw(&mut canvas, &plan, &view, self.nodes, self.marks)?;
         section::draw(&mut canvas, &section, &view, self.nodes)?;
         canvas.to_png()
@@ -99,21 +101,21 @@ impl Picture<'_> {
     }
 }
 
-/// Title and figures of `nodes`, their left edge at `left`.
-fn head(canvas: &mut Canvas, left: f64, title: &str, nodes: &Nodes) {
+/// Title and caption, their left edge at `left`.
+fn head(canvas: &mut Canvas, left: f64, title: &str, caption: &str) {
     let look = Text { size: 34.0, bold: true, align: Align::Left, ..Text::default() };
     let line = canvas.fitted(title, look, WIDTH as f64 - 1.5 * SIDES.0);
     canvas.text([left, 40.0], &line, look);
     let small = Text { size: 22.0, bold: false, colour: colour::SOFT, ..look };
-    canvas.text([left, 87.0], &caption(nodes), small);
+    canvas.text([left, 87.0], caption, small);
 }
 
-fn caption(nodes: &Nodes) -> String {
+/// The figures of `nodes`, whose wear volume is `volume` [m3].
+fn caption(nodes: &Nodes, volume: f64) -> String {
     let deepest = nodes.depth.iter().copied().fold(0.0, f64::max);
     if deepest == 0.0 {
         return format!("no wear  ·  {} nodes", counted(nodes.len()));
     }
-    let volume = nodes.wear_volume();
     let worn = nodes.depth.iter().filter(|depth| **depth > 0.0).count();
     format!(
         "wear volume {}  ·  largest depth {}  ·  {} of {} nodes worn",

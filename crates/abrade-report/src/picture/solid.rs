@@ -10,7 +10,7 @@ use super::camera::Camera;
 use super::canvas::{Align, Canvas, Rect, Text};
 use super::colour::{INK, SOFT};
 use super::shading::{self, Window};
-use super::{Mark, WIDTH, head, plan};
+use super::{Mark, WIDTH, caption, head, plan};
 use crate::atomic;
 use crate::error::ReportError;
 use crate::units::{of_extent, tick_text, ticks};
@@ -37,10 +37,13 @@ const ARROW: f64 = 40.0;
 pub struct SolidPicture<'a> {
     /// Headline, usually the scene's name.
     pub title: &'a str,
-    /// The surface of the solid, in its own frame.
+    /// The surface of the solid since it was made ([`abrade::Surface::nodes_since_made`]), in its
+    /// own frame.
     pub nodes: &'a Nodes,
     /// Facets between the nodes, counter-clockwise as seen from outside.
     pub triangles: &'a [[u32; 3]],
+    /// Its wear volume, W_V [m3].
+    pub wear_volume: f64,
     /// Places to point at.
     pub marks: &'a [Mark<'a>],
 }
@@ -56,7 +59,7 @@ impl SolidPicture<'_> {
         let deepest = deepest.filter(|&i| nodes.depth[i] > 0.0);
         let camera = Camera::of(nodes, self.triangles, deepest);
         let mut canvas = Canvas::new(WIDTH, (HEIGHT.1 + FOOT) as usize)?;
-        head(&mut canvas, SIDES.0, self.title, nodes);
+        head(&mut canvas, SIDES.0, self.title, &caption(nodes, self.wear_volume));
         let whole = self.bounds(&camera);
         let size = span(&whole).into_iter().fold(0.0, f64::max);
         let crater = deepest.map(|i| self.crater(&camera, i));

@@ -24,7 +24,12 @@ struct Image {
 
 impl Image {
     fn of(nodes: &Nodes) -> Self {
-        let picture = Picture { title: "a test & a <name>", nodes, marks: &[] };
+        let picture = Picture {
+            title: "a test & a <name>",
+            nodes,
+            wear_volume: nodes.wear_volume(),
+            marks: &[],
+        };
         let png = picture.to_png().expect("drawable");
         let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().expect("a PNG");
         let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];

@@ -60,10 +60,10 @@ fn absent_values_are_null() {
     assert!(json["bodies"]["ball"].as_object().expect("a map")["restitution"].is_null());
 }
 
-/// A program that summed depths without areas, counted all nodes as worn or swapped the parts
-/// would pass a test of the keys alone.
+/// A program that took the sum over the nodes for the volume, which is not that of a renewed
+/// surface, counted all nodes as worn or swapped the parts would pass a test of the keys alone.
 #[test]
-fn a_surface_is_summed_by_area() {
+fn a_surface_tells_its_volumes_and_its_worn_nodes() {
     let nodes = Nodes {
         rest_position: vec![Point3::origin(); 3],
         normal: vec![Vector3::z(); 3],
@@ -72,8 +72,8 @@ fn a_surface_is_summed_by_area() {
     };
     let worn =
         Worn { normal: 1.5, lateral: 0.75, chip: 0.125, removed: 2.25, ..Default::default() };
-    let summary = SurfaceSummary::of(&nodes, &worn);
-    assert_eq!(summary.wear_volume, 2.25);
+    let summary = SurfaceSummary::of(&nodes, 2.375, &worn);
+    assert_eq!(summary.wear_volume, 2.375);
     assert_eq!((summary.wear_volume_normal, summary.wear_volume_lateral), (1.5, 0.75));
     assert_eq!((summary.removed_volume, summary.chip_volume), (2.25, 0.125));
     assert_eq!((summary.max_depth, summary.worn_nodes, summary.nodes), (0.5, 2, 3));

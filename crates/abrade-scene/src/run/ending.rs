@@ -74,12 +74,12 @@ impl Ending<'_> {
             .collect();
         let marks = if tracks.len() > 1 { &marks[..] } else { &[] };
         let surface = self.engine.surface(surface);
-        let nodes = surface.nodes();
+        let (nodes, wear_volume) = (&*surface.nodes_since_made(), surface.wear_volume());
         match surface.is_flat() {
-            true => Picture { title, nodes, marks }.to_png(),
+            true => Picture { title, nodes, wear_volume, marks }.to_png(),
             false => {
                 let triangles = &surface.triangles();
-                SolidPicture { title, nodes, triangles, marks }.to_png()
+                SolidPicture { title, nodes, wear_volume, triangles, marks }.to_png()
             }
         }
     }

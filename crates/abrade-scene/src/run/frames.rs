@@ -47,7 +47,7 @@ impl Frames {
         for (index, series) in self.surfaces.iter_mut().enumerate() {
             let surface = engine.surface(index);
             let (path, frame) = (series.next_path(), &bodies.frames[index]);
-            vtp::write_surface(&path, surface.nodes(), frame, &surface.triangles())?;
+            vtp::write_surface(&path, &surface.nodes_since_made(), frame, &surface.triangles())?;
             series.push(time);
             series.write()?;
         }

@@ -79,7 +79,7 @@ fn surface(run: &Run<'_>, index: usize) -> SurfaceSummary {
     let slides = run.bodies.tracks.iter().filter_map(|track| track.slide.as_ref());
     SurfaceSummary {
         wear_rate: slides.filter(|slide| slide.surface == index).find_map(|slide| slide.rate()),
-        ..SurfaceSummary::of(surface.nodes(), &surface.worn())
+        ..SurfaceSummary::of(&surface.nodes_since_made(), surface.wear_volume(), &surface.worn())
     }
 }
 

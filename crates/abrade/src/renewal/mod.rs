@@ -11,6 +11,7 @@ mod paid;
 #[cfg(test)]
 mod tests;
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use nalgebra::Point3;
@@ -19,6 +20,7 @@ use thiserror::Error;
 use crate::grid::Grid;
 use crate::layout::Layout;
 use crate::mesh::{MeshError, TriangleMesh};
+use crate::nodes::Nodes;
 use crate::surface::{Surface, small_area};
 
 /// Depth since the last renewal over the pitch at which the next one is due. Until then the volume
@@ -142,6 +144,22 @@ impl Surface {
     /// has moved within the surface in a renewal it is that of the place where it is now.
     pub fn worn_depth(&self, i: usize) -> f64 {
         self.past_depth(i) + self.depth(i)
+    }
+
+    /// The nodes as if all of the wear were one epoch's, to show and to count: `depth` is
+    /// [`Surface::worn_depth`], and the undeformed position lies that far above where the node is.
+    /// The sum over them is not the wear volume: that is [`Surface::wear_volume`].
+    pub fn nodes_since_made(&self) -> Cow<'_, Nodes> {
+        let nodes = self.nodes();
+        if self.past.is_none() {
+            return Cow::Borrowed(nodes);
+        }
+        let above = |i: usize| nodes.rest_position[i] + nodes.normal[i] * self.past_depth(i);
+        Cow::Owned(Nodes {
+            rest_position: (0..nodes.len()).map(above).collect(),
+            depth: (0..nodes.len()).map(|i| self.worn_depth(i)).collect(),
+            ..nodes.clone()
+        })
     }
 
     /// The part of [`Surface::worn_depth`] before the last renewal [m].

@@ -153,7 +153,7 @@ fn what_has_not_worn_stays_as_it_is_to_the_bit() {
     let far: Vec<usize> = (0..new.len()).filter(|&i| old.rest_position[i].z < 0.0).collect();
     assert!(far.len() > 200);
     for i in far {
-        let of = |nodes: &crate::nodes::Nodes| {
+        let of = |nodes: &Nodes| {
             (nodes.rest_position[i], nodes.normal[i], nodes.rest_area[i], nodes.depth[i])
         };
         assert_eq!(of(old), of(new));
@@ -172,7 +172,13 @@ fn a_face_worn_flat_keeps_its_depth_over_renewals() {
         cut(&mut surface, &Vector3::z(), 0.03);
         surface.renew().expect("a renewal");
     }
+    cut(&mut surface, &Vector3::z(), 0.01);
     let nodes = surface.nodes();
+    let shown = surface.nodes_since_made();
+    for i in 0..nodes.len() {
+        assert_eq!(shown.depth[i], surface.worn_depth(i));
+        assert!((shown.position(i) - nodes.position(i)).norm() < 1e-15);
+    }
     let middle = |i: &usize| nodes.rest_position[*i].coords.xy().norm() < 0.3;
     let top: Vec<usize> =
         (0..nodes.len()).filter(middle).filter(|&i| nodes.rest_position[i].z > 0.0).collect();

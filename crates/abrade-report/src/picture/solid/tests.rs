@@ -23,7 +23,9 @@ fn picture(mesh: &TriangleMesh, depth: impl Fn(&Point3<f64>) -> f64) -> (usize, 
     let mut nodes = surface.nodes().clone();
     nodes.depth = nodes.rest_position.iter().map(depth).collect();
     let triangles = surface.triangles();
-    let png = SolidPicture { title: "a test", nodes: &nodes, triangles: &triangles, marks: &[] };
+    let (title, wear_volume) = ("a test", nodes.wear_volume());
+    let (nodes, triangles) = (&nodes, &triangles[..]);
+    let png = SolidPicture { title, nodes, wear_volume, triangles, marks: &[] };
     let png = png.to_png().expect("drawable");
     let mut reader = png::Decoder::new(std::io::Cursor::new(png)).read_info().expect("a PNG");
     let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
@@ -67,7 +69,8 @@ fn a_solid_without_wear_is_grey() {
     assert_eq!(coloured(width, &pixels, SIDES.0 as usize..SIDES.1 as usize), 0);
     let dark = pixels.chunks_exact(3).filter(|rgb| rgb[0] < 250).count();
     assert!(dark > 100_000, "{dark}");
-    let none = SolidPicture { title: "", nodes: &Nodes::default(), triangles: &[], marks: &[] };
+    let nodes = &Nodes::default();
+    let none = SolidPicture { title: "", nodes, wear_volume: 0.0, triangles: &[], marks: &[] };
     assert!(none.to_png().is_ok());
 }
 
