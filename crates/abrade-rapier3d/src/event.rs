@@ -1,7 +1,7 @@
 //! What happened to the contacts of a step. Filtered pairs raise no contact events of Rapier's;
 //! these stand in for them.
 
-use abrade::PhysicsError;
+use abrade::{PhysicsError, RenewError};
 use nalgebra::Vector3;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::ColliderHandle;
@@ -67,6 +67,20 @@ pub enum WearEvent {
         surface: SurfaceId,
         /// Why.
         error: PhysicsError,
+    },
+    /// A worn solid has become the undeformed one: nodes have moved within the surface, and its
+    /// proxy and the mass of its body have followed.
+    Renewed {
+        /// The surface.
+        surface: SurfaceId,
+    },
+    /// A worn solid cannot be made the undeformed one; it wears on as it is, and is tried again
+    /// once it has worn further.
+    NotRenewed {
+        /// The surface.
+        surface: SurfaceId,
+        /// Why.
+        error: RenewError,
     },
 }
 

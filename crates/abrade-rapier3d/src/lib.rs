@@ -18,7 +18,9 @@
 //! 7. settle: poses and end velocities are written, events raised; bodies in Rapier's hands wear by
 //!    the load that their contact bore (QuasiStatic), or are taken back with their island and
 //!    stepped finely (Lockstep), where it was a blow. In an island the embedder's hooks are not
-//!    asked.
+//!    asked;
+//! 8. renew: solids that have worn deep and that nothing touches begin anew as what is left of
+//!    them, and their colliders, masses and centres follow.
 //!
 //! With the feature `serde-serialize` a [`WearWorld`] is saved beside Rapier's world, in the middle
 //! of contacts too, and goes on from the bytes to the bit.
@@ -57,6 +59,7 @@ mod print;
 mod quasi_static;
 mod query_collider;
 mod register;
+mod renew;
 mod resolve;
 mod resolver;
 mod rest;

@@ -26,13 +26,22 @@ pub struct WearSettings {
     /// [`WearWorld::place`](crate::WearWorld::place): with several, or none, there is no single
     /// exit to stop at, and steps keep their full length.
     pub until: Until,
+    /// Whether closed surfaces that have worn deep are renewed
+    /// ([`abrade::Surface::renew`]) between their contacts, and what stands for them follows. The
+    /// proxy's shape: a ball shrinks to the least one about its centre that holds all nodes, other
+    /// convex shapes become the hull of the worn nodes, a mesh the worn mesh; compounds and height
+    /// fields stay as they are. Mass, centre and inertia of a dynamic body whose only solid
+    /// collider is the proxy: those of the worn solid, its mass spread evenly, on the proxy's own
+    /// mass properties in place of densities and additional masses.
+    pub renew: bool,
 }
 
 impl Default for WearSettings {
     fn default() -> Self {
         let EncounterSettings { accuracy, ledger, step_limit } = EncounterSettings::default();
         let resolve = Resolve::Auto;
-        Self { accuracy, ledger, step_limit, resolve, until: Until::Duration }
+        let until = Until::Duration;
+        Self { accuracy, ledger, step_limit, resolve, until, renew: true }
     }
 }
 

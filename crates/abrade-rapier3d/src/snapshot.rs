@@ -5,7 +5,7 @@
 //! give an error or a world that a step can be taken with. What belongs to Rapier's world is not:
 //! a surface whose proxy is gone, or a body, is left alone as it is in any step.
 
-use abrade::{Ledger, State, Surface};
+use abrade::{Ledger, State, Surface, Worn};
 use nalgebra::Isometry3;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::ColliderHandle;
@@ -111,16 +111,18 @@ impl<'de> Deserialize<'de> for WearWorld {
 
 impl Serialize for WornCollider {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let shown = self.shown.as_ref().map(Shown::parts);
-        (&*self.surface, self.proxy, self.offset, self.exact, shown).serialize(to)
+        let Self { surface, proxy, offset, exact, shown, refused, bounds: _, inflation: _ } = self;
+        let shown = shown.as_ref().map(Shown::parts);
+        (&**surface, proxy, offset, exact, shown, refused).serialize(to)
     }
 }
 
 impl<'de> Deserialize<'de> for WornCollider {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
         type Exact = Option<(Pose, Isometry3<f64>)>;
-        type Parts = (Surface, ColliderHandle, Isometry3<f64>, Exact, Option<ShownParts>);
-        let (surface, proxy, offset, exact, shown) = Parts::deserialize(from)?;
+        type Tiles = Option<ShownParts>;
+        type Parts = (Surface, ColliderHandle, Isometry3<f64>, Exact, Tiles, Option<Worn>);
+        let (surface, proxy, offset, exact, shown, refused) = Parts::deserialize(from)?;
         let exact_frame = exact.as_ref().map(|(_, frame)| frame);
         if ![Some(&offset), exact_frame].into_iter().flatten().all(is_frame) {
             return Err(D::Error::custom("the place of a surface is none"));
@@ -132,7 +134,7 @@ impl<'de> Deserialize<'de> for WornCollider {
             }
             None => None,
         };
-        Ok(Self { exact, shown, ..Self::new(surface, proxy, offset) })
+        Ok(Self { exact, shown, refused, ..Self::new(surface, proxy, offset) })
     }
 }
 

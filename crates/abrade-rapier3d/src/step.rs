@@ -1,4 +1,4 @@
-//! One step of the embedder's world: choose, resolve, steer, engine, settle.
+//! One step of the embedder's world: choose, resolve, steer, engine, settle, renew.
 
 use abrade::Until;
 use nalgebra::{Isometry3, Vector3};
@@ -157,6 +157,7 @@ impl WearWorld {
         if !self.held.is_empty() {
             self.settle_held(&mut world, observer);
         }
+        self.renew_solids(&mut world);
         let mut proxies = self.surfaces.iter().map(|worn| worn.proxy);
         let proxy = proxies.find(|&proxy| world.colliders.contains(proxy));
         self.glances.seal(proxy, world.colliders);

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use abrade::{ElasticLaw, Surface};
+use abrade::{ElasticLaw, RenewError, Surface, Worn};
 use nalgebra::{Isometry3, Point3};
 use rapier::geometry::{Collider, ColliderHandle};
 use rapier::math::Pose;
@@ -23,6 +23,12 @@ impl fmt::Display for SurfaceId {
     }
 }
 
+/// Box around the undeformed nodes, in the surface's frame.
+fn bounds(surface: &Surface) -> Extent {
+    let [low, high]: [Point3<f64>; 2] = surface.bounds();
+    Extent { low, high }
+}
+
 /// A surface and the collider that stands for it.
 pub(crate) struct WornCollider {
     /// Shared with its leaves, for as long as those last.
@@ -38,18 +44,34 @@ pub(crate) struct WornCollider {
     pub inflation: f64,
     /// What rays and characters see of it.
     pub shown: Option<Shown>,
+    /// How worn it was when it could last not be renewed.
+    pub refused: Option<Worn>,
 }
 
 impl WornCollider {
     pub fn new(surface: Surface, proxy: ColliderHandle, offset: Isometry3<f64>) -> Self {
-        let [low, high]: [Point3<f64>; 2] = surface.bounds();
         let inflation = match surface.laws().elastic {
             ElasticLaw::HertzNodes { node_radius, .. } => node_radius,
             ElasticLaw::Foundation { .. } | ElasticLaw::Rigid => 0.0,
         };
-        let bounds = Extent { low, high };
+        let bounds = bounds(&surface);
         let surface = Arc::new(surface);
-        Self { surface, proxy, offset, exact: None, bounds, inflation, shown: None }
+        Self { surface, proxy, offset, exact: None, bounds, inflation, shown: None, refused: None }
+    }
+
+    /// True when the surface is due for renewal and has worn since that was last refused.
+    pub fn is_due(&self) -> bool {
+        self.surface.is_due_for_renewal() && self.refused != Some(self.surface.worn())
+    }
+
+    /// Renews the surface; returns the volume that the solid has lost since the renewal before
+    /// [m3].
+    pub fn renew(&mut self) -> Result<f64, RenewError> {
+        let lost = self.surface.nodes().wear_volume();
+        let renewed = self.owned().renew();
+        self.refused = renewed.is_err().then(|| self.surface.worn());
+        self.bounds = bounds(&self.surface);
+        renewed.map(|_| lost)
     }
 
     /// Lays the surface's frame where the proxy's pose cannot say exactly.

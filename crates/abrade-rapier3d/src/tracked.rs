@@ -1,8 +1,8 @@
 //! What is known of one rigid body from step to step.
 
-use abrade::{Body, Encounter, Ledger, State};
+use abrade::{Body, Encounter, Inertia, Ledger, State};
 use abrade_lockstep::Wearer;
-use nalgebra::{Isometry3, Point3};
+use nalgebra::{Isometry3, Point3, Vector3};
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::ColliderSet;
 use rapier::math::Vector;
@@ -146,6 +146,37 @@ impl Tracked {
         self.radius = derive::radius(rb, colliders);
         self.known = Known::Unseen;
         self.shadow = None;
+    }
+
+    /// Its own surface was renewed, which has changed colliders and mass and moved its centre of
+    /// mass by `shift` [m] in its frame. A registered body gets this inertia, and the shape that its
+    /// colliders have now, if they have one.
+    pub fn renew(
+        &mut self,
+        rb: &RigidBody,
+        colliders: &ColliderSet,
+        inertia: Inertia,
+        shift: &Vector3<f64>,
+    ) {
+        match &mut self.known {
+            Known::Ready(body) if self.registered => {
+                let derived = derive::shape(rb, colliders);
+                body.shape = derived.unwrap_or_else(|_| body.shape.moved(&-shift));
+                body.inertia = inertia;
+                self.radius = body.shape.bounding_radius();
+            }
+            _ => self.refresh(rb, colliders),
+        }
+    }
+
+    /// Surfaces with which a contact of it is open.
+    pub fn touched(&self) -> impl Iterator<Item = SurfaceId> + '_ {
+        let live = self.live.iter().filter(|live| live.encounter.is_open());
+        let wall = self.against.iter().filter(|against| against.encounter.is_open());
+        let live = live.flat_map(|live| live.surfaces.iter().copied());
+        let sprung = self.wearer.iter().flat_map(|(ids, _)| ids.iter().copied());
+        let pressed = self.pressing.iter().map(|pressing| pressing.surface);
+        live.chain(wall.map(|against| against.surface)).chain(sprung).chain(pressed)
     }
 
     /// Drops a shadow that no longer holds. True when the body is not where it was left: an

@@ -154,10 +154,15 @@ impl WearWorld {
     ) -> Result<bool, PhysicsError> {
         let Walker { surface, body, reach, .. } = walker;
         let tracked = Tracked::slot(&mut self.bodies, *body);
+        // A body that somebody has moved or pushed has lost the place of its springs.
+        let still = world
+            .bodies
+            .get(*body)
+            .is_some_and(|rb| tracked.shadow.is_some_and(|shadow| shadow.holds(rb)));
         let goes_on = tracked
             .against
             .as_ref()
-            .is_some_and(|against| against.wall == wall && against.surface == *surface);
+            .is_some_and(|against| still && against.wall == wall && against.surface == *surface);
         if !goes_on {
             self.leave_wall(*body);
             let Some(against) = self.against(walker, wall, world)? else { return Ok(false) };

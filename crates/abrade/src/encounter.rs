@@ -201,6 +201,11 @@ impl Encounter {
         self.integrator.in_contact()
     }
 
+    /// True from the first touch until the contact is over: so long its surfaces cannot be renewed.
+    pub fn is_open(&self) -> bool {
+        self.integrator.touched
+    }
+
     /// Largest overlap of a node with `body` [m]; zero on surfaces that it was not made with.
     pub fn overlap(&mut self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
         if self.integrator.fits(surfaces).is_err() {

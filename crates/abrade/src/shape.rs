@@ -71,6 +71,13 @@ impl Shape {
         Ok(Self { pieces, bounding_radius })
     }
 
+    /// This shape, `shift` [m] from where it was.
+    pub fn moved(&self, shift: &Vector3<f64>) -> Self {
+        let pieces: Vec<Piece> = self.pieces.iter().map(|piece| piece.moved(shift)).collect();
+        let bounding_radius = pieces.iter().map(Piece::bounding_radius).fold(0.0, f64::max);
+        Self { pieces, bounding_radius }
+    }
+
     /// The pieces.
     pub fn pieces(&self) -> &[Piece] {
         &self.pieces
@@ -95,6 +102,13 @@ impl Shape {
 }
 
 impl Piece {
+    fn moved(&self, shift: &Vector3<f64>) -> Self {
+        match self {
+            Self::Ball(ball) => Self::Ball(Ball { centre: ball.centre + shift, ..*ball }),
+            Self::Hull(hull) => Self::Hull(hull.clone().moved(shift)),
+        }
+    }
+
     fn bounding_radius(&self) -> f64 {
         match self {
             Self::Ball(ball) => ball.centre.coords.norm() + ball.radius,

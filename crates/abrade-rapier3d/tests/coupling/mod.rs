@@ -9,6 +9,8 @@ mod hooks;
 mod independence;
 mod query_collider;
 mod query_tiles;
+mod renewal;
 mod rig;
 mod shadow;
+mod tumble;
 mod wall;

@@ -2,6 +2,7 @@
 
 use crate::plugin::abrade::{
     Body, Drive, DriveSolution, HexStrip, Inertia, Material, Shape, State, Surface, SurfaceLaws,
+    TriangleMesh,
 };
 use crate::plugin::rapier::math::{Pose, Vector};
 use crate::plugin::rapier::prelude::*;
@@ -20,7 +21,7 @@ pub struct Case {
     pub after: usize,
 }
 
-pub const CASES: [Case; 5] = [
+pub const CASES: [Case; 7] = [
     Case {
         name: "impacts at tiny steps",
         world: impacts,
@@ -48,6 +49,20 @@ pub const CASES: [Case; 5] = [
         counted: |counters| counters.micro,
         before: 8,
         after: 8,
+    },
+    Case {
+        name: "cube that is to be renewed",
+        world: tumbling,
+        counted: |counters| counters.micro,
+        before: 14,
+        after: 30,
+    },
+    Case {
+        name: "cube that was renewed",
+        world: tumbling,
+        counted: |counters| counters.micro,
+        before: 111,
+        after: 100,
     },
     Case { name: "hail", world: hail, counted: |counters| counters.micro, before: 12, after: 24 },
 ];
@@ -233,6 +248,33 @@ fn scratch() -> Save {
     let body = Body { shape, inertia, state, rotation_locked: true };
     save.wear.drive(plate, tip, body, drive, &save.world.bodies).expect("a drive");
     save
+}
+
+/// A wearing cube that falls on a floor; it is renewed in the 29th step.
+fn tumbling() -> Save {
+    let gravity = v(0.0, 0.0, -100.0);
+    let mut world = PhysicsWorld { gravity, ..PhysicsWorld::default() };
+    world.integration_parameters.dt = n(2e-4);
+    world.integration_parameters.length_unit = n(0.02);
+    world
+        .colliders
+        .insert(ColliderBuilder::cuboid(n(1.0), n(1.0), n(0.1)).translation(v(0.0, 0.0, -0.1)));
+    let body = RigidBodyBuilder::dynamic()
+        .translation(v(0.0, 0.0, 0.025))
+        .rotation(v(0.5, 0.7, 0.0))
+        .linvel(v(0.3, 0.2, -3.0))
+        .angvel(v(20.0, -30.0, 10.0));
+    let half = n(0.01);
+    let cube = ColliderBuilder::cuboid(half, half, half).density(n(2000.0));
+    let (_, proxy) = world.insert(body, cube);
+    let mesh = TriangleMesh::cuboid(Vector3::repeat(0.01), 2e-3).expect("a cube");
+    let soft = Material { hardness: 1e7, young: Some(2e8), ..STEEL };
+    let laws = SurfaceLaws { restitution: 0.9, ..SurfaceLaws::of(soft) };
+    let surface = Surface::mesh(&mesh, laws).expect("a surface");
+    let settings = WearSettings { ledger: true, step_limit: 30_000, ..WearSettings::default() };
+    let mut wear = WearWorld::new(settings);
+    wear.insert(surface, proxy, &mut world.colliders).expect("a proxy");
+    Save { world, wear }
 }
 
 /// Balls that fall one after the other on the same spots, some beside the plate, and one that is

@@ -32,12 +32,12 @@ impl Save {
     pub fn outcome(&mut self, steps: usize) -> String {
         let mut text = format!("{:?}\n", self.run(steps));
         for (_, surface) in self.wear.surfaces() {
-            text += &format!("{:?}\n{:?}\n", surface.worn(), surface.nodes().depth);
+            text += &format!("{:?}\n{:?}\n", surface.worn(), surface.nodes());
         }
         for (handle, rb) in self.world.bodies.iter() {
             let exact = self.wear.state(handle, &self.world.bodies);
             let driven = self.wear.driven_state(handle, &self.world.colliders);
-            text += &format!("{exact:?} {driven:?}\n");
+            text += &format!("{exact:?} {driven:?} {:?}\n", rb.mass_properties().local_mprops);
             text += &format!("{:?} {:?} {:?}\n", rb.position(), rb.linvel(), rb.angvel());
         }
         // Everything is looked at closely again after a save was read.

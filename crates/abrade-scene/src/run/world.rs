@@ -192,6 +192,8 @@ impl Engine for World {
                 WearEvent::Started { .. }
                 | WearEvent::Resolved { .. }
                 | WearEvent::NoIsland { .. }
+                | WearEvent::Renewed { .. }
+                | WearEvent::NotRenewed { .. }
                 | WearEvent::Failed { .. } => {}
             }
         }
