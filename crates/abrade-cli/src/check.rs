@@ -1,7 +1,9 @@
 //! `abrade check`: what a scene holds and how large it is.
 
 use abrade::{ElasticLaw, FlowLaw, Lateral, Removal};
-use abrade_scene::scene::{Motion, Rotation, SceneBody, SceneShape, SceneSurface, Stop};
+use abrade_scene::scene::{
+    Motion, Rotation, SceneBody, SceneShape, SceneSurface, Stop, SurfaceMotion,
+};
 use abrade_scene::{Checked, Solid, SurfaceSize};
 
 use crate::arguments::SceneArguments;
@@ -62,8 +64,22 @@ fn surface_text(surface: &SceneSurface, size: &SurfaceSize) -> String {
         Some([columns, rows]) => format!("{columns} x {rows}, {} apart", length(size.pitch)),
         None => format!("closed, about {} apart", length(size.pitch)),
     };
+    let motion = match &surface.motion {
+        SurfaceMotion::Fixed => String::new(),
+        SurfaceMotion::Kinematic { velocity, spin } => {
+            let (speed, spin) = (digits(norm(velocity)), digits(norm(spin)));
+            format!("; led at {speed} m/s and {spin} rad/s")
+        }
+        SurfaceMotion::Free { density, velocity, .. } => {
+            format!("; free at {} m/s, {} kg/m3", digits(norm(velocity)), digits(*density))
+        }
+    };
     let (nodes, material) = (size.nodes, &surface.material);
-    format!("{nodes} nodes ({layout}); {flow}, {elastic}, {removal}; {material}")
+    format!("{nodes} nodes ({layout}); {flow}, {elastic}, {removal}; {material}{motion}")
+}
+
+fn norm(v: &[f64; 3]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 fn body_text(body: &SceneBody, solid: &Solid) -> String {
@@ -74,24 +90,22 @@ fn body_text(body: &SceneBody, solid: &Solid) -> String {
         SceneShape::ConvexHull { .. } => "convex hull".to_owned(),
         SceneShape::Clump { .. } => format!("clump of {} spheres", solid.shape.pieces().len()),
     };
-    let motion = match &body.motion {
-        Motion::Impact { speed, angle, .. } => {
-            format!("impact at {} m/s, {} deg", digits(*speed), digits(angle.to_degrees()))
-        }
-        Motion::Free { velocity, .. } => {
-            let speed = velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
-            format!("free at {} m/s", digits(speed))
-        }
-        Motion::Drive { indent_to, distance, .. } => {
-            format!("driven to {} N over {}", digits(*indent_to), length(*distance))
-        }
-    };
+    let reach = length(solid.shape.bounding_radius());
     let turned = match body.rotation {
         Rotation::Random { seed } => format!(", turned at random (seed {seed})"),
         _ => String::new(),
     };
+    let motion = match &body.motion {
+        Motion::Impact { speed, angle, .. } => {
+            format!("impact at {} m/s, {} deg", digits(*speed), digits(angle.to_degrees()))
+        }
+        Motion::Fixed => return format!("{shape}, reach {reach}{turned}; fixed"),
+        Motion::Free { velocity, .. } => format!("free at {} m/s", digits(norm(velocity))),
+        Motion::Drive { indent_to, distance, .. } => {
+            format!("driven to {} N over {}", digits(*indent_to), length(*distance))
+        }
+    };
     let mass = digits(solid.inertia.mass);
-    let reach = length(solid.shape.bounding_radius());
     format!("{shape}, {mass} kg, reach {reach}{turned}; {motion}")
 }
 

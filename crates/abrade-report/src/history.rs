@@ -18,11 +18,13 @@ pub struct Columns {
     pub bodies: Vec<String>,
     /// Names of the surfaces, as the scene writes them.
     pub surfaces: Vec<String>,
+    /// Names of the surfaces that move.
+    pub carriers: Vec<String>,
     /// True when the ledger is kept.
     pub energies: bool,
 }
 
-/// An instant; bodies and surfaces in the order of [`Columns`].
+/// An instant; bodies, surfaces and carriers in the order of [`Columns`].
 #[derive(Clone, Copy, Debug)]
 pub struct Row<'a> {
     /// Time since the run began [s].
@@ -31,6 +33,8 @@ pub struct Row<'a> {
     pub bodies: &'a [BodyRow],
     /// One entry per surface.
     pub surfaces: &'a [SurfaceRow],
+    /// The motion of the bodies that moving surfaces are on.
+    pub carriers: &'a [State],
     /// Present exactly when the ledger is kept.
     pub energies: Option<&'a EnergySummary>,
 }
@@ -80,6 +84,7 @@ impl History {
     pub fn push(&mut self, row: &Row<'_>) -> Result<(), ReportError> {
         self.check("bodies", self.columns.bodies.len(), row.bodies.len())?;
         self.check("surfaces", self.columns.surfaces.len(), row.surfaces.len())?;
+        self.check("carriers", self.columns.carriers.len(), row.carriers.len())?;
         let energies = usize::from(row.energies.is_some());
         self.check("sets of energies", usize::from(self.columns.energies), energies)?;
         self.fields.clear();
@@ -127,11 +132,11 @@ fn csv_error(path: &Path, error: csv::Error) -> ReportError {
     ReportError::File { action: FileAction::Write, path: path.to_owned(), source }
 }
 
-/// Columns of a body, in the order of [`BodyRow::values`].
-const BODY: [&str; 12] = [
-    "x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s", "wx_rad_s", "wy_rad_s", "wz_rad_s", "fx_N",
-    "fy_N", "fz_N",
-];
+/// Columns of a motion, in the order of [`motion_values`].
+const MOTION: [&str; 9] =
+    ["x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s", "wx_rad_s", "wy_rad_s", "wz_rad_s"];
+/// Columns of a body's force.
+const FORCE: [&str; 3] = ["fx_N", "fy_N", "fz_N"];
 const SURFACE: [&str; 2] = ["wear_volume_m3", "max_depth_m"];
 const ENERGIES: [&str; 10] = [
     "initial_J",
@@ -148,14 +153,17 @@ const ENERGIES: [&str; 10] = [
 
 impl Columns {
     /// The header: `time_s`, then `ball_x_m` and its like per body, `plate_wear_volume_m3` and its
-    /// like per surface, `kinetic_J` and its like when the ledger is kept.
+    /// like per surface, `cube_x_m` and its like per surface that moves, `kinetic_J` and its like
+    /// when the ledger is kept.
     pub fn names(&self) -> Vec<String> {
         let prefixed = |owner: &String, columns: &[&str]| {
             columns.iter().map(|column| format!("{owner}_{column}")).collect::<Vec<_>>()
         };
         let mut names = vec!["time_s".to_owned()];
-        names.extend(self.bodies.iter().flat_map(|name| prefixed(name, &BODY)));
+        let body = [&MOTION[..], &FORCE].concat();
+        names.extend(self.bodies.iter().flat_map(|name| prefixed(name, &body)));
         names.extend(self.surfaces.iter().flat_map(|name| prefixed(name, &SURFACE)));
+        names.extend(self.carriers.iter().flat_map(|name| prefixed(name, &MOTION)));
         if self.energies {
             names.extend(ENERGIES.map(str::to_owned));
         }
@@ -168,17 +176,21 @@ impl Row<'_> {
         std::iter::once(self.time)
             .chain(self.bodies.iter().flat_map(BodyRow::values))
             .chain(self.surfaces.iter().flat_map(|s| [s.wear_volume, s.max_depth]))
+            .chain(self.carriers.iter().flat_map(motion_values))
             .chain(self.energies.into_iter().flat_map(energy_values))
     }
 }
 
 impl BodyRow {
     fn values(&self) -> impl Iterator<Item = f64> {
-        let State { position, velocity, spin, .. } = self.state;
-        let parts: [[f64; 3]; 4] =
-            [position.coords.into(), velocity.into(), spin.into(), self.force.into()];
-        parts.into_iter().flatten()
+        motion_values(&self.state).chain(<[f64; 3]>::from(self.force))
     }
+}
+
+fn motion_values(state: &State) -> impl Iterator<Item = f64> + use<> {
+    let State { position, velocity, spin, .. } = *state;
+    let parts: [[f64; 3]; 3] = [position.coords.into(), velocity.into(), spin.into()];
+    parts.into_iter().flatten()
 }
 
 fn energy_values(e: &EnergySummary) -> [f64; 10] {

@@ -9,7 +9,7 @@ use base64::engine::general_purpose::STANDARD;
 use crate::atomic;
 use crate::error::ReportError;
 use crate::pvd::escape;
-use crate::summary::{BodySummary, EnergySummary, Summary, SurfaceSummary};
+use crate::summary::{BodySummary, EnergySummary, MotionSummary, Summary, SurfaceSummary};
 
 /// The page as text; `picture` is a PNG file's bytes, if there is one.
 pub fn to_html(summary: &Summary, picture: Option<&[u8]>) -> String {
@@ -62,7 +62,7 @@ fn warnings(summary: &Summary) -> String {
 
 fn surfaces(summary: &Summary) -> String {
     let table = |(name, s): (&String, &SurfaceSummary)| {
-        let rows = [
+        let mut rows = vec![
             ("Wear volume", quantity(s.wear_volume, "m³")),
             ("by normal flow", quantity(s.wear_volume_normal, "m³")),
             ("by lateral flow", quantity(s.wear_volume_lateral, "m³")),
@@ -74,6 +74,9 @@ fn surfaces(summary: &Summary) -> String {
             ("Indented area", quantity(s.indented_area, "m²")),
             ("Volume per distance", optional(s.wear_rate, "m²")),
         ];
+        if let Some(MotionSummary { position, rotation_xyzw, velocity, spin }) = s.motion {
+            rows.extend(motion(&position, &rotation_xyzw, &velocity, &spin));
+        }
         block(&format!("Surface {}", escape(name)), &rows)
     };
     summary.surfaces.iter().map(table).collect()
@@ -81,18 +84,29 @@ fn surfaces(summary: &Summary) -> String {
 
 fn bodies(summary: &Summary) -> String {
     let table = |(name, b): (&String, &BodySummary)| {
-        let rows = [
-            ("Position", vector(&b.position, "m")),
-            ("Rotation (x, y, z, w)", vector(&b.rotation_xyzw, "")),
-            ("Velocity", vector(&b.velocity, "m/s")),
-            ("Spin", vector(&b.spin, "rad/s")),
+        let mut rows = motion(&b.position, &b.rotation_xyzw, &b.velocity, &b.spin).to_vec();
+        rows.extend([
             ("Restitution", optional(b.restitution, "")),
             ("Rebound angle", optional(b.rebound_angle, "°")),
             ("Mean force", vector(&b.mean_force, "N")),
-        ];
+        ]);
         block(&format!("Body {}", escape(name)), &rows)
     };
     summary.bodies.iter().map(table).collect()
+}
+
+fn motion(
+    position: &[f64; 3],
+    rotation_xyzw: &[f64; 4],
+    velocity: &[f64; 3],
+    spin: &[f64; 3],
+) -> [(&'static str, String); 4] {
+    [
+        ("Position", vector(position, "m")),
+        ("Rotation (x, y, z, w)", vector(rotation_xyzw, "")),
+        ("Velocity", vector(velocity, "m/s")),
+        ("Spin", vector(spin, "rad/s")),
+    ]
 }
 
 fn energies(summary: &Summary) -> String {

@@ -95,6 +95,26 @@ pub struct SurfaceSummary {
     /// Volume per sliding distance over the last `rate_over` of a driven run [m2].
     #[serde(rename = "wear_rate_m2")]
     pub wear_rate: Option<f64>,
+    /// How it moves; `None` for a surface at rest in the world.
+    #[serde(default)]
+    pub motion: Option<MotionSummary>,
+}
+
+/// Where the body of a moving surface ended, and how it moves: the centre of mass of a free one,
+/// the origin of the surface's frame of a led one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MotionSummary {
+    /// Place [m].
+    #[serde(rename = "position_m")]
+    pub position: [f64; 3],
+    /// Orientation as the quaternion x, y, z, w.
+    pub rotation_xyzw: [f64; 4],
+    /// Velocity [m/s].
+    #[serde(rename = "velocity_m_s")]
+    pub velocity: [f64; 3],
+    /// Angular velocity [rad/s].
+    #[serde(rename = "spin_rad_s")]
+    pub spin: [f64; 3],
 }
 
 /// Where a body ended and how it left.
@@ -190,7 +210,7 @@ impl Summary {
 impl SurfaceSummary {
     /// What the nodes since they were made ([`abrade::Surface::nodes_since_made`]), the wear volume
     /// [m3] and the tally of a surface tell. The caller adds `wear_rate` [m2], which needs the
-    /// body's path.
+    /// body's path, and `motion`.
     pub fn of(nodes: &Nodes, wear_volume: f64, worn: &Worn) -> Self {
         Self {
             nodes: nodes.len(),
@@ -204,6 +224,19 @@ impl SurfaceSummary {
             peak_normal_force: worn.peak_normal_force,
             indented_area: worn.indented_area,
             wear_rate: None,
+            motion: None,
+        }
+    }
+}
+
+impl MotionSummary {
+    /// The state of a body.
+    pub fn of(state: &State) -> Self {
+        Self {
+            position: state.position.coords.into(),
+            rotation_xyzw: state.rotation.coords.into(),
+            velocity: state.velocity.into(),
+            spin: state.spin.into(),
         }
     }
 }

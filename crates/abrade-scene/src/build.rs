@@ -6,6 +6,7 @@ use abrade::{Body, Surface, SurfaceError, SurfaceLaws};
 use nalgebra::Isometry3;
 use thiserror::Error;
 
+use crate::carrier::BuiltCarrier;
 use crate::check::Checked;
 use crate::place;
 use crate::scene::{Geometry, Motion, SceneBody, SceneSurface};
@@ -25,8 +26,10 @@ pub struct Built {
 pub struct BuiltSurface {
     /// The surface.
     pub surface: Surface,
-    /// Its frame in the world.
+    /// Its frame in the world, at the start.
     pub pose: Isometry3<f64>,
+    /// The body that it moves with; none for a surface at rest.
+    pub carrier: Option<BuiltCarrier>,
     /// What the engine has in its place.
     pub stand_in: StandIn,
 }
@@ -129,7 +132,9 @@ impl Checked {
             restitution: surface.restitution,
         };
         let stand_in = StandIn::of(&surface.geometry);
-        let surface = match self.meshes.get(name) {
+        let mesh = self.meshes.get(name);
+        let carrier = BuiltCarrier::new(&surface.motion, &pose, mesh);
+        let surface = match mesh {
             Some(mesh) => Surface::mesh(mesh, laws),
             None => {
                 let strip = place::strip(&surface.geometry).ok_or_else(unchecked)?;
@@ -138,7 +143,7 @@ impl Checked {
         };
         let surface =
             surface.map_err(|error| BuildError::Surface { name: name.to_owned(), error })?;
-        Ok(BuiltSurface { surface, pose, stand_in })
+        Ok(BuiltSurface { surface, pose, carrier, stand_in })
     }
 
     fn build_body(&self, body: &SceneBody, solid: &Solid) -> Option<Body> {

@@ -2,6 +2,7 @@
 //! names, geometry, and what is not available yet.
 
 mod body;
+mod carrier;
 mod closed;
 mod motion;
 mod placement;
@@ -125,8 +126,7 @@ impl Checker<'_> {
     }
 
     fn check_finite(&mut self, field: &'static str, values: &[f64]) {
-        let bad = values.iter().find(|value| !value.is_finite());
-        self.ranges(&ScenePath::default(), [bad.map(|&value| finite(field, value))]);
+        self.ranges(&ScenePath::default(), [vector(field, values)]);
     }
 
     /// The name becomes a folder's.
@@ -151,6 +151,11 @@ impl Checker<'_> {
 /// The error of a value that is not finite.
 fn finite(field: &'static str, value: f64) -> ParameterError {
     ParameterError { field, value, allowed: "finite".into() }
+}
+
+/// The error of a vector with a component that is not finite.
+fn vector(field: &'static str, values: &[f64]) -> Option<ParameterError> {
+    values.iter().find(|x| !x.is_finite()).map(|&x| finite(field, x))
 }
 
 /// An error unless `value` is finite and not below zero.

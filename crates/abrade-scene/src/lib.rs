@@ -7,6 +7,7 @@
 #![allow(rustdoc::broken_intra_doc_links, reason = "units stand in brackets")]
 
 mod build;
+mod carrier;
 mod check;
 mod closed;
 pub mod clump;
@@ -27,6 +28,7 @@ mod solid;
 mod spans;
 
 pub use build::{BuildError, Built, BuiltSurface, StandIn};
+pub use carrier::BuiltCarrier;
 pub use check::Checked;
 pub use load::{load, load_text};
 pub use problem::{Mark, Problem, SceneError, Source};

@@ -102,7 +102,7 @@ fn velocity(motion: &Motion) -> (Vector3<f64>, Vector3<f64>) {
             (v.into(), spin.into())
         }
         Motion::Free { velocity, spin } => (velocity.into(), spin.into()),
-        Motion::Drive { .. } => (Vector3::zeros(), Vector3::zeros()),
+        Motion::Fixed | Motion::Drive { .. } => (Vector3::zeros(), Vector3::zeros()),
     }
 }
 

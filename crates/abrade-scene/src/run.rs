@@ -152,8 +152,8 @@ fn go(
         let dt = stop::step_length(run, recorder.time()).min(recorder.until_frame());
         recorder.open_step(engine, bodies);
         let stepped = engine.step(dt, &mut recorder.watch(bodies))?;
-        recorder.close_step(engine, bodies, stepped.dt)?;
         bodies.settle(engine, &stepped);
+        recorder.close_step(engine, bodies, stepped.dt)?;
         if let Some(end) = stop::reached(run, engine, bodies, &stepped, recorder.time()) {
             return Ok(end);
         }

@@ -124,6 +124,7 @@ impl Contact<'_> {
     /// Nodes taken through the laws over the whole motion.
     fn evaluations(&self, motion: &Motion) -> f64 {
         match *motion {
+            Motion::Fixed => 0.0,
             Motion::Impact { speed, angle, .. } => {
                 self.impact(speed * angle.sin(), speed * angle.cos())
             }

@@ -91,6 +91,15 @@ pub(crate) fn solid(
     Ok((Solid { shape: blank.shape, inertia, centre: blank.centre }, blank.note))
 }
 
+/// The solid of `shape`, held so that nothing moves it.
+pub(crate) fn fixed(
+    shape: &SceneShape,
+    folder: &Path,
+) -> Result<(Solid, Option<String>), SolidTrouble> {
+    let Blank { shape, centre, note, .. } = blank(shape, None, folder)?;
+    Ok((Solid { shape, inertia: Inertia::immovable(), centre }, note))
+}
+
 /// True when mass and principal moments are finite and above zero.
 fn is_sound(inertia: &Inertia) -> bool {
     let finite = inertia.mass.is_finite() && inertia.tensor.iter().all(|x| x.is_finite());

@@ -8,7 +8,12 @@ use nalgebra::Point3;
 use super::*;
 
 fn columns() -> Columns {
-    Columns { bodies: vec!["ball".into()], surfaces: vec!["plate".into()], energies: true }
+    Columns {
+        bodies: vec!["ball".into()],
+        surfaces: vec!["plate".into(), "cube".into()],
+        carriers: vec!["cube".into()],
+        energies: true,
+    }
 }
 
 fn body() -> BodyRow {
@@ -29,8 +34,15 @@ fn every_value_stands_under_its_name_and_reads_back_exactly() {
     let mut history = History::create(&path, columns()).expect("writable");
     let energies = EnergySummary { kinetic: 0.5, numerical: -1e-12, ..Default::default() };
     let surface = SurfaceRow { wear_volume: 1.25e-13, max_depth: 3e-6 };
-    let row =
-        Row { time: 1e-6, bodies: &[body()], surfaces: &[surface], energies: Some(&energies) };
+    let cube =
+        State { spin: Vector3::new(0.0, 0.0, 12.0), ..State::at(Point3::new(7.0, 0.0, 0.0)) };
+    let row = Row {
+        time: 1e-6,
+        bodies: &[body()],
+        surfaces: &[surface, SurfaceRow { wear_volume: 2.5e-13, ..surface }],
+        carriers: &[cube],
+        energies: Some(&energies),
+    };
     history.push(&row).expect("writable");
     assert!(!path.exists(), "the final name must wait for the end");
     history.finish().expect("renamed");
@@ -49,6 +61,9 @@ fn every_value_stands_under_its_name_and_reads_back_exactly() {
         ("ball_fy_N", 1e-9),
         ("plate_wear_volume_m3", 1.25e-13),
         ("plate_max_depth_m", 3e-6),
+        ("cube_wear_volume_m3", 2.5e-13),
+        ("cube_x_m", 7.0),
+        ("cube_wz_rad_s", 12.0),
         ("kinetic_J", 0.5),
         ("numerical_J", -1e-12),
     ];
@@ -63,13 +78,15 @@ fn a_row_that_does_not_fit_the_header_is_refused() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("history.csv");
     let mut history = History::create(&path, columns()).expect("writable");
-    let surfaces = [SurfaceRow::default()];
-    let energies = EnergySummary::default();
-    let row = Row { time: 0.0, bodies: &[], surfaces: &surfaces, energies: Some(&energies) };
-    let error = history.push(&row).expect_err("a body is missing");
+    let (bodies, surfaces) = (&[body()][..], &[SurfaceRow::default(); 2][..]);
+    let (carriers, energies) = (&[body().state][..], Some(&EnergySummary::default()));
+    let whole = Row { time: 0.0, bodies, surfaces, carriers, energies };
+    let error = history.push(&Row { bodies: &[], ..whole }).expect_err("a body is missing");
     assert!(matches!(error, ReportError::Row { what: "bodies", expected: 1, found: 0, .. }));
-    let row = Row { time: 0.0, bodies: &[body()], surfaces: &surfaces, energies: None };
-    assert!(history.push(&row).is_err(), "the energies are missing");
+    for row in [Row { energies: None, ..whole }, Row { carriers: &[], ..whole }] {
+        assert!(history.push(&row).is_err(), "{row:?}");
+    }
+    history.push(&whole).expect("nothing is missing");
 }
 
 /// A program that removed an unfinished history would lose what an interrupted run had written.

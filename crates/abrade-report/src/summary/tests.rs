@@ -40,8 +40,8 @@ fn the_keys_are_those_of_the_interface_in_its_order() {
     let expected = "scene abrade complete precision resolver micro quasi_static lockstep \
         resolver_reasons wall_s simulated_s steps node_evaluations surfaces plate nodes wear_volume_m3 \
         wear_volume_normal_m3 wear_volume_lateral_m3 removed_volume_m3 chip_volume_m3 \
-        max_depth_m worn_nodes peak_normal_force_N indented_area_m2 wear_rate_m2 bodies ball \
-        position_m rotation_xyzw velocity_m_s spin_rad_s restitution rebound_angle_deg \
+        max_depth_m worn_nodes peak_normal_force_N indented_area_m2 wear_rate_m2 motion \
+        bodies ball position_m rotation_xyzw velocity_m_s spin_rad_s restitution rebound_angle_deg \
         mean_force_N energy initial_J kinetic_J elastic_J friction_J wear_J damping_J \
         external_work_J history_J adhesion_J numerical_J error_estimate time pitch basis \
         warnings stop";
@@ -56,6 +56,7 @@ fn absent_values_are_null() {
         serde_json::from_str(&summary.to_json().expect("writable")).expect("JSON");
     assert!(json.as_object().expect("a map")["energy"].is_null());
     assert!(json["surfaces"]["plate"].as_object().expect("a map")["wear_rate_m2"].is_null());
+    assert!(json["surfaces"]["plate"].as_object().expect("a map")["motion"].is_null());
     assert!(json["error_estimate"].as_object().expect("a map")["pitch"].is_null());
     assert!(json["bodies"]["ball"].as_object().expect("a map")["restitution"].is_null());
 }

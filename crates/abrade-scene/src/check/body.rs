@@ -59,6 +59,9 @@ impl Checker<'_> {
         if mass.is_some_and(|mass| ParameterError::positive("mass", mass).is_some()) {
             return Err(None);
         }
+        if body.motion == Motion::Fixed {
+            return solid::fixed(&body.shape, folder).map_err(Some);
+        }
         solid::solid(&body.shape, body.density, mass, folder).map_err(Some)
     }
 

@@ -2,17 +2,15 @@
 
 use abrade::ParameterError;
 
-use super::{Checker, finite, not_negative};
+use super::{Checker, finite, not_negative, vector};
 use crate::scene::{Motion, Placement, SceneBody, Solution};
 use crate::spans::ScenePath;
 
 impl Checker<'_> {
     pub(super) fn check_motion(&mut self, path: &ScenePath, body: &SceneBody) {
         let motion = path.join("motion");
-        let vector = |field, values: &[f64; 3]| {
-            values.iter().find(|x| !x.is_finite()).map(|&x| finite(field, x))
-        };
         match &body.motion {
+            Motion::Fixed => {}
             Motion::Impact { speed, angle, azimuth, spin } => self.ranges(
                 &motion,
                 [

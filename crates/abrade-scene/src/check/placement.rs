@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use abrade::TriangleMesh;
 
-use super::{Checker, finite};
+use super::{Checker, vector};
 use crate::overlap;
 use crate::place;
 use crate::problem::Problem;
-use crate::scene::{Motion, Placement, SceneBody, SceneSurface};
+use crate::scene::{Motion, Placement, SceneBody, SceneSurface, SurfaceMotion};
 use crate::solid::Solid;
 use crate::spans::ScenePath;
 
@@ -23,15 +23,12 @@ impl Checker<'_> {
         if let Some(surface) = body.position.surface() {
             self.check_host(path, body, surface);
         }
-        let first = |field, values: &[f64]| {
-            values.iter().find(|x| !x.is_finite()).map(|&x| finite(field, x))
-        };
         match &body.position {
             Placement::OnSurface { at, gap, .. } => {
-                self.ranges(&position, [first("at", at), first("gap", &[*gap])]);
+                self.ranges(&position, [vector("at", at), vector("gap", &[*gap])]);
             }
             Placement::InFrame { point, .. } | Placement::At { point } => {
-                self.ranges(&position, [first("point", point)]);
+                self.ranges(&position, [vector("point", point)]);
             }
         }
         self.problems.len() == before
@@ -45,7 +42,7 @@ impl Checker<'_> {
             return self.undefined(&position.join("surface"), "surface", name, &known);
         };
         if !surface.geometry.is_closed() {
-            return;
+            return self.check_drive_still(path, body, name, surface);
         }
         let (word, message, help) = match (&body.motion, &body.position) {
             (Motion::Drive { .. }, _) => (
@@ -66,6 +63,26 @@ impl Checker<'_> {
         let marks =
             vec![self.mark(&word, "is for flat surfaces"), self.mark(&geometry, "has no top")];
         self.problems.push(Problem { message, marks, help: Some(help) });
+    }
+
+    /// A drive slides over a plate at rest.
+    fn check_drive_still(
+        &mut self,
+        path: &ScenePath,
+        body: &SceneBody,
+        name: &str,
+        surface: &SceneSurface,
+    ) {
+        let driven = matches!(body.motion, Motion::Drive { .. });
+        if driven && surface.motion != SurfaceMotion::Fixed {
+            let marks = vec![
+                self.mark(&path.join("motion"), "is for surfaces at rest"),
+                self.mark(&ScenePath::of(["surfaces", name, "motion"]), "moves the surface"),
+            ];
+            let message =
+                format!("`{path}` cannot be driven over the surface `{name}`, which moves");
+            self.problems.push(Problem { message, marks, help: None });
+        }
     }
 
     /// A body must start outside every surface.

@@ -3,7 +3,7 @@
 use abrade::ParameterError;
 
 use super::Checker;
-use crate::scene::{Motion, Output, Stop};
+use crate::scene::{Motion, Output, Stop, SurfaceMotion};
 use crate::spans::ScenePath;
 
 impl Checker<'_> {
@@ -41,7 +41,19 @@ impl Checker<'_> {
                     self.refuse(&path, message, "no body has the motion `Drive(..)`");
                 }
             }
-            Stop::AllRebounded | Stop::FirstExit | Stop::Impacts { .. } => {}
+            Stop::AllRebounded | Stop::FirstExit | Stop::Impacts { .. } => {
+                self.check_rebounds(&path)
+            }
+        }
+    }
+
+    /// A rule that waits for bodies to leave needs one that can.
+    fn check_rebounds(&mut self, path: &ScenePath) {
+        let scene = self.scene;
+        let moves = scene.surfaces.values().any(|surface| surface.motion != SurfaceMotion::Fixed);
+        if moves && scene.bodies.values().all(|body| body.motion == Motion::Fixed) {
+            let message = "the run would be over at once: no body can leave a surface".into();
+            self.refuse(path, message, "expected `Time(limit: ..)`");
         }
     }
 

@@ -8,11 +8,11 @@ use abrade::{
     TriangleMesh,
 };
 
-use super::{Checker, finite};
+use super::{Checker, vector};
 use crate::closed::{self, ClosedMesh};
 use crate::place;
 use crate::problem::Problem;
-use crate::scene::{Geometry, SceneSurface, SurfaceMotion};
+use crate::scene::{Geometry, SceneSurface};
 use crate::spans::ScenePath;
 
 impl Checker<'_> {
@@ -39,15 +39,8 @@ impl Checker<'_> {
                 let message = format!("the surface `{name}` cannot be part of a file's name");
                 self.refuse(&path, message, "without `/` or `\\`");
             }
-            match surface.motion {
-                SurfaceMotion::Fixed => {}
-                SurfaceMotion::Kinematic { .. } => {
-                    self.not_available(&path.join("motion"), "Kinematic");
-                }
-                SurfaceMotion::Free { .. } => self.not_available(&path.join("motion"), "Free"),
-            }
-            let position = surface.position.iter().find(|x| !x.is_finite());
-            self.ranges(&path, [position.map(|&x| finite("position", x))]);
+            self.check_carrier(&path, name, surface);
+            self.ranges(&path, [vector("position", &surface.position)]);
             if place::rotation(&surface.rotation).is_none() {
                 self.no_direction(&path.join("rotation"));
             }

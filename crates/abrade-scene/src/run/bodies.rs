@@ -4,8 +4,9 @@ use abrade::{Inertia, State};
 use nalgebra::{Isometry3, Point3, Vector3};
 
 use crate::build::Built;
+use crate::carrier::BuiltCarrier;
 use crate::check::Checked;
-use crate::run::engine::{Engine, Sample, Stepped};
+use crate::run::engine::{Engine, Met, Sample, Stepped};
 use crate::scene::Motion;
 
 /// Speed over the body's largest speed below which it counts as resting.
@@ -14,8 +15,9 @@ const REST: f64 = 1e-6;
 /// All bodies, in the scene's order, and where the surfaces lie.
 pub(crate) struct Bodies {
     pub tracks: Vec<Track>,
-    /// Frames of the surfaces in the world.
+    /// Frames of the surfaces in the world, now, and what they move with.
     pub frames: Vec<Isometry3<f64>>,
+    pub carriers: Vec<Option<BuiltCarrier>>,
     /// Corners of the boxes around closed surfaces, in their frames [m]; none for flat ones.
     pub solids: Vec<Option<[Point3<f64>; 2]>>,
     /// Contacts that have ended.
@@ -37,8 +39,8 @@ pub(crate) struct Track {
     pub aim: Option<Isometry3<f64>>,
     /// Velocity before the first contact [m/s].
     pub approach: Option<Vector3<f64>>,
-    /// Where its centre of mass was at the first touch, in the world.
-    pub landing: Option<Point3<f64>>,
+    /// Where its centre of mass was at the first touch, in the frames of the surfaces that it met.
+    pub landings: Vec<(usize, Point3<f64>)>,
     /// Impulse of the surfaces [N s] and time in contact [s].
     pub impulse: Vector3<f64>,
     pub contact_time: f64,
@@ -98,7 +100,7 @@ impl Bodies {
                 reach: body.shape.bounding_radius(),
                 aim: aim.map(|i| frames[i]),
                 approach: None,
-                landing: None,
+                landings: Vec::new(),
                 impulse: Vector3::zeros(),
                 contact_time: 0.0,
                 slide,
@@ -109,6 +111,7 @@ impl Bodies {
         Self {
             tracks: tracks.collect(),
             frames: frames.clone(),
+            carriers: built.surfaces.values().map(|surface| surface.carrier).collect(),
             solids: solids.clone(),
             impacts: 0,
             refused: Vec::new(),
@@ -118,14 +121,19 @@ impl Bodies {
 
     /// Looks at a contact step.
     pub(crate) fn see(&mut self, sample: &Sample<'_>) {
+        let landed = |met: &Met<'_>| {
+            let moved = self.carriers[met.index].zip(met.carrier);
+            let frame = moved.map_or(self.frames[met.index], |(body, state)| body.frame(&state));
+            (met.index, frame.inverse_transform_point(&sample.state.position))
+        };
         let track = &mut self.tracks[sample.body];
         if sample.force != Vector3::zeros() && track.approach.is_none() {
             track.approach = Some(track.last_velocity);
-            track.landing = Some(sample.state.position);
+            track.landings = sample.surfaces.iter().map(landed).collect();
         }
         track.last_velocity = sample.state.velocity;
         if let Some(slide) = &mut track.slide {
-            let volume = sample.surfaces.first().map_or(0.0, |(_, s)| s.worn().displaced());
+            let volume = sample.surfaces.first().map_or(0.0, |met| met.surface.worn().displaced());
             slide.see(sample, volume);
         }
     }
@@ -134,16 +142,17 @@ impl Bodies {
     pub(crate) fn settle(&mut self, engine: &dyn Engine, stepped: &Stepped) {
         for ended in &stepped.ended {
             self.impacts += 1;
-            let track = &mut self.tracks[ended.body];
+            let Some(body) = ended.body else { continue };
+            let track = &mut self.tracks[body];
             track.impulse += ended.impulse;
             track.contact_time += ended.contact_time;
         }
         for (body, surface, why) in &stepped.refused {
-            let what = format!(
-                "`{}` on `{}`",
-                self.tracks[*body].name,
-                self.surface_names.get(*surface).map_or("", String::as_str)
-            );
+            let surface = self.surface_names.get(*surface).map_or("", String::as_str);
+            let what = match body {
+                Some(body) => format!("`{}` on `{surface}`", self.tracks[*body].name),
+                None => format!("`{surface}`"),
+            };
             match self.refused.iter_mut().find(|(w, reason, _)| *w == what && reason == why) {
                 Some((.., count)) => *count += 1,
                 None => self.refused.push((what, why.clone(), 1)),
@@ -153,6 +162,16 @@ impl Bodies {
             track.last_velocity = engine.state(body).velocity;
             track.top_speed = track.top_speed.max(track.last_velocity.norm());
         }
+        for (surface, carrier) in self.carriers.iter().enumerate() {
+            if let Some((body, state)) = carrier.zip(engine.carrier(surface)) {
+                self.frames[surface] = body.frame(&state);
+            }
+        }
+    }
+
+    /// Kinetic energy of the free bodies of surfaces, at the start [J].
+    pub(crate) fn carried_at_start(&self) -> f64 {
+        self.carriers.iter().flatten().map(|body| body.kinetic_energy(&body.state)).sum()
     }
 
     /// True when every free body moves away from every surface, or rests.
@@ -162,22 +181,35 @@ impl Bodies {
             None => {
                 let state = engine.state(body);
                 let rests = state.velocity.norm() <= REST * track.top_speed;
-                rests || (!engine.in_contact(body) && self.leaves(&state, track.reach))
+                rests || (!engine.in_contact(body) && self.leaves(engine, &state, track.reach))
             }
         })
     }
 
     /// Away from every surface: rising over a plate, or below its plane; straight past the box
-    /// around a solid.
-    fn leaves(&self, state: &State, reach: f64) -> bool {
-        self.frames.iter().zip(&self.solids).all(|(frame, solid)| {
-            let local = state.seen_from(frame);
-            match solid {
-                None => local.velocity.z >= 0.0 || local.position.z < 0.0,
-                Some(corners) => misses(&local, reach, corners),
+    /// around a solid, which for one that turns is the box around all its attitudes.
+    fn leaves(&self, engine: &dyn Engine, state: &State, reach: f64) -> bool {
+        self.frames.iter().zip(&self.solids).enumerate().all(|(surface, (frame, solid))| {
+            let mut local = state.seen_from(frame);
+            let (mut velocity, mut turns) = (Vector3::zeros(), None);
+            if let Some((body, moved)) = self.carriers[surface].zip(engine.carrier(surface)) {
+                velocity = frame.inverse_transform_vector(&moved.velocity);
+                turns = (moved.spin != Vector3::zeros()).then_some(body.centre_local);
+            }
+            local.velocity -= velocity;
+            match (solid, turns) {
+                (None, _) => local.velocity.z >= 0.0 || local.position.z < 0.0,
+                (Some(corners), None) => misses(&local, reach, corners),
+                (Some(corners), Some(centre)) => misses(&local, reach, &turned(corners, &centre)),
             }
         })
     }
+}
+
+/// A box about `centre` that holds the box between the corners in every attitude.
+fn turned([low, high]: &[Point3<f64>; 2], centre: &Point3<f64>) -> [Point3<f64>; 2] {
+    let half = Vector3::repeat((low - centre).abs().sup(&(high - centre).abs()).norm());
+    [centre - half, centre + half]
 }
 
 /// True when a body of this `reach` [m] that flies straight on never comes into the box between

@@ -63,13 +63,11 @@ impl Ending<'_> {
     /// A worn surface with the places where bodies came down.
     fn picture(&self, surface: usize) -> Result<Vec<u8>, ReportError> {
         let (title, tracks) = (self.title, &self.bodies.tracks);
-        let frame = &self.bodies.frames[surface];
         let marks: Vec<_> = tracks
             .iter()
             .filter_map(|track| {
-                let landing = track.landing?;
-                let position_local = frame.inverse_transform_point(&landing);
-                Some(Mark { label: &track.name, position_local })
+                let (_, place) = track.landings.iter().find(|(on, _)| *on == surface)?;
+                Some(Mark { label: &track.name, position_local: *place })
             })
             .collect();
         let marks = if tracks.len() > 1 { &marks[..] } else { &[] };

@@ -18,6 +18,9 @@ pub(crate) trait Engine {
     /// A surface.
     fn surface(&self, surface: usize) -> &Surface;
 
+    /// State of the body that a surface moves with, in the world; none for a surface at rest.
+    fn carrier(&self, surface: usize) -> Option<State>;
+
     /// True while nodes carry force on a body.
     fn in_contact(&self, body: usize) -> bool;
 
@@ -48,10 +51,18 @@ pub(crate) struct Sample<'a> {
     pub state: State,
     /// Force of the surfaces on the body [N].
     pub force: Vector3<f64>,
-    /// The surfaces it meets, by index.
-    pub surfaces: &'a [(usize, &'a Surface)],
+    /// The surfaces it meets.
+    pub surfaces: &'a [Met<'a>],
     /// The body's own energies.
     pub ledger: Option<&'a Ledger>,
+}
+
+/// A surface that a body meets.
+pub(crate) struct Met<'a> {
+    pub index: usize,
+    pub surface: &'a Surface,
+    /// State of the body that it moves with, in the world.
+    pub carrier: Option<State>,
 }
 
 /// What a step did.
@@ -60,14 +71,15 @@ pub(crate) struct Stepped {
     /// True when a body's first exit ended it.
     pub exited: bool,
     pub ended: Vec<Ended>,
-    /// Bodies left to the engine near a surface: (body, surface, why).
-    pub refused: Vec<(usize, usize, String)>,
+    /// Bodies left to the engine near a surface: (body, surface, why); none for the surface's own.
+    pub refused: Vec<(Option<usize>, usize, String)>,
 }
 
 /// The end of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ended {
-    pub body: usize,
+    /// None for the body of a surface, which has met a wall.
+    pub body: Option<usize>,
     pub impulse: Vector3<f64>,
     pub contact_time: f64,
 }

@@ -2,7 +2,7 @@
 
 use abrade::{Piece, Shape};
 
-use crate::build::Built;
+use crate::build::{Built, BuiltSurface};
 
 /// Sum of the pieces' volumes, overlaps counted twice, as Rapier's densities do [m3].
 pub(crate) fn volume_sum(shape: &Shape) -> f64 {
@@ -13,9 +13,17 @@ pub(crate) fn volume_sum(shape: &Shape) -> f64 {
     shape.pieces().iter().map(volume).sum()
 }
 
-/// The size of the smallest body [m]: Rapier's tolerances are fractions of it.
+/// The size of the smallest body that is free to move [m]: Rapier's tolerances are fractions of it.
 pub(crate) fn length_unit(built: &Built) -> f64 {
-    let sizes = built.bodies.values().map(|body| 2.0 * body.shape.bounding_radius());
-    let smallest = sizes.fold(f64::INFINITY, f64::min);
+    let bodies = built.bodies.values().filter(|body| !body.inertia.is_immovable());
+    let free =
+        |surface: &&BuiltSurface| surface.carrier.is_some_and(|carrier| carrier.inertia.is_some());
+    let extent = |surface: &BuiltSurface| {
+        let [low, high] = surface.surface.bounds();
+        (high - low).norm()
+    };
+    let sizes = bodies.map(|body| 2.0 * body.shape.bounding_radius());
+    let smallest =
+        sizes.chain(built.surfaces.values().filter(free).map(extent)).fold(f64::INFINITY, f64::min);
     if smallest.is_finite() { smallest } else { 1.0 }
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use abrade::Ledger;
+use abrade::{Ledger, State};
 use abrade_report::history::{BodyRow, Columns, Row, SurfaceRow};
 use abrade_report::{History, ReportError, Summary};
 use nalgebra::Vector3;
@@ -33,6 +33,8 @@ pub(crate) struct Recorder {
     /// Volumes of the surfaces when the next body's turn comes [m3].
     volumes: Vec<f64>,
     depths: Vec<f64>,
+    /// States of the bodies of moving surfaces when the step began.
+    carriers: Vec<Option<State>>,
     /// Energies of encounters that were over when the step began.
     closed: Ledger,
     last_ledgers: Vec<Ledger>,
@@ -64,6 +66,7 @@ impl Recorder {
                     let columns = Columns {
                         bodies: built.bodies.keys().cloned().collect(),
                         surfaces: surface_names.clone(),
+                        carriers: moving(built),
                         energies,
                     };
                     let it = History::create(&folder.join("history.csv"), columns)?;
@@ -94,6 +97,7 @@ impl Recorder {
             courses: Vec::new(),
             volumes: vec![0.0; surface_names.len()],
             depths: vec![0.0; surface_names.len()],
+            carriers: vec![None; surface_names.len()],
             closed: Ledger::default(),
             last_ledgers: vec![Ledger::default(); built.bodies.len()],
             surface_names,
@@ -143,6 +147,7 @@ impl Recorder {
             let worn = engine.surface(surface).worn();
             self.volumes[surface] = worn.displaced();
             self.depths[surface] = worn.max_depth;
+            self.carriers[surface] = engine.carrier(surface);
         }
     }
 
@@ -206,7 +211,9 @@ impl Recorder {
 
     /// A row `at` seconds into the step under way.
     fn row(&mut self, bodies: &Bodies, at: f64) -> Result<(), ReportError> {
-        let Some(history) = &mut self.history else { return Ok(()) };
+        if self.history.is_none() {
+            return Ok(());
+        }
         let mut ledger = self.closed;
         let mut rows = Vec::with_capacity(self.courses.len());
         for course in &self.courses {
@@ -229,17 +236,34 @@ impl Recorder {
                 }
             })
             .collect();
+        let carriers: Vec<_> = (0..self.carriers.len()).map(|s| self.carrier(s, at)).collect();
         let energies = self.energies.then(|| {
             let pairs = bodies.tracks.iter().zip(&rows);
-            let kinetic = pairs.map(|(track, row)| track.inertia.kinetic_energy(&row.state)).sum();
-            energies(ledger, bodies, kinetic)
+            let own = pairs.map(|(track, row)| track.inertia.kinetic_energy(&row.state));
+            let carried = bodies.carriers.iter().zip(&carriers);
+            let carried = carried.filter_map(|(body, s)| Some((body.as_ref()?, s.as_ref()?)));
+            let carried = carried.map(|(body, state)| body.kinetic_energy(state));
+            energies(ledger, bodies, own.sum::<f64>() + carried.sum::<f64>())
         });
+        let carriers: Vec<_> = carriers.into_iter().flatten().collect();
+        let Some(history) = &mut self.history else { return Ok(()) };
         history.it.push(&Row {
             time: self.time + at,
             bodies: &rows,
             surfaces: &surfaces,
+            carriers: &carriers,
             energies: energies.as_ref(),
         })
+    }
+
+    /// The body of a surface `at` seconds into the step under way: it flies on from the last
+    /// contact step.
+    fn carrier(&self, surface: usize, at: f64) -> Option<State> {
+        let begun = (0.0, self.carriers[surface]?);
+        let met = self.courses.iter().filter_map(|course| course.carrier(surface, at));
+        let (time, mut state) = met.fold(begun, |a, b| if b.0 >= a.0 { b } else { a });
+        state.position += state.velocity * (at - time);
+        Some(state)
     }
 
     /// Closes the files and writes those of the end.
@@ -266,6 +290,12 @@ impl Recorder {
         };
         ending.write(&self.outputs, summary)
     }
+}
+
+/// Names of the surfaces that move.
+fn moving(built: &Built) -> Vec<String> {
+    let moves = built.surfaces.iter().filter(|(_, surface)| surface.carrier.is_some());
+    moves.map(|(name, _)| name.clone()).collect()
 }
 
 /// Passes contact steps to the recordings and to what the run remembers of its bodies.

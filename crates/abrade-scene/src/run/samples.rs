@@ -24,6 +24,8 @@ struct Displaced {
     /// Volume of the surface then [m3], and its largest depth [m].
     volume: f64,
     depth: f64,
+    /// State of the body that the surface moves with.
+    carrier: Option<State>,
 }
 
 /// One body over the step under way.
@@ -53,10 +55,11 @@ impl Course {
             force: sample.force,
             ledger: sample.ledger.copied().unwrap_or_default(),
         });
-        let met = sample.surfaces.iter().map(|&(surface, worn)| {
-            self.start[surface].get_or_insert(before[surface]);
-            let worn = worn.worn();
-            Displaced { surface, volume: worn.displaced(), depth: worn.max_depth }
+        let met = sample.surfaces.iter().map(|met| {
+            self.start[met.index].get_or_insert(before[met.index]);
+            let worn = met.surface.worn();
+            let (volume, depth) = (worn.displaced(), worn.max_depth);
+            Displaced { surface: met.index, volume, depth, carrier: met.carrier }
         });
         self.displaced.push(met.collect());
     }
@@ -77,9 +80,23 @@ impl Course {
     /// Volume [m3] that the body displaced on `surface` by `time`, and the depth seen then [m].
     pub(crate) fn displaced(&self, surface: usize, time: f64) -> (f64, f64) {
         let Some(start) = self.start[surface] else { return (0.0, 0.0) };
-        let upto = &self.displaced[..=self.index(time)];
-        let last = upto.iter().rev().flatten().find(|d| d.surface == surface);
-        last.map_or((0.0, 0.0), |d| (d.volume - start, d.depth))
+        self.last(surface, time).map_or((0.0, 0.0), |(_, d)| (d.volume - start, d.depth))
+    }
+
+    /// The body of `surface` as the last contact step by `time` [s] left it, and when that was.
+    pub(crate) fn carrier(&self, surface: usize, time: f64) -> Option<(f64, State)> {
+        let (at, displaced) = self.last(surface, time)?;
+        Some((at, displaced.carrier?))
+    }
+
+    /// What the last contact step with `surface` by `time` [s] left, and when that was.
+    fn last(&self, surface: usize, time: f64) -> Option<(f64, &Displaced)> {
+        self.start[surface]?;
+        let upto = self.kept.iter().zip(&self.displaced).take(self.index(time) + 1);
+        upto.rev().find_map(|(kept, displaced)| {
+            let found = displaced.iter().find(|d| d.surface == surface)?;
+            Some((kept.time, found))
+        })
     }
 
     fn index(&self, time: f64) -> usize {

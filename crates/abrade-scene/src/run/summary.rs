@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use abrade::{ElasticLaw, Ledger};
 use abrade_report::Summary;
 use abrade_report::summary::{
-    BodySummary, EnergySummary, ErrorEstimate, ResolverCounts, SurfaceSummary,
+    BodySummary, EnergySummary, ErrorEstimate, MotionSummary, ResolverCounts, SurfaceSummary,
 };
 
+use crate::carrier::BuiltCarrier;
 use crate::check::Checked;
 use crate::run::bodies::{Bodies, Track};
 use crate::run::engine::Engine;
@@ -40,8 +41,13 @@ pub(crate) fn summary(run: &Run<'_>) -> Summary {
     let bodies = tracks.map(|(i, track)| (track.name.clone(), body(run, i, track))).collect();
     let energy = run.checked.scene.outputs.contains(&Output::Energy).then(|| {
         let tracks = run.bodies.tracks.iter().enumerate();
-        let kinetic = tracks.map(|(i, t)| t.inertia.kinetic_energy(&run.engine.state(i))).sum();
-        energies(run.engine.ledger(), run.bodies, kinetic)
+        let kinetic: f64 =
+            tracks.map(|(i, t)| t.inertia.kinetic_energy(&run.engine.state(i))).sum();
+        let carried = |(i, body): (usize, &Option<BuiltCarrier>)| {
+            Some(body.as_ref()?.kinetic_energy(&run.engine.carrier(i)?))
+        };
+        let carried: f64 = run.bodies.carriers.iter().enumerate().filter_map(carried).sum();
+        energies(run.engine.ledger(), run.bodies, kinetic + carried)
     });
     let stop = match run.failure {
         Some(failure) => format!("{}: {failure}", run.end.words()),
@@ -79,6 +85,7 @@ fn surface(run: &Run<'_>, index: usize) -> SurfaceSummary {
     let slides = run.bodies.tracks.iter().filter_map(|track| track.slide.as_ref());
     SurfaceSummary {
         wear_rate: slides.filter(|slide| slide.surface == index).find_map(|slide| slide.rate()),
+        motion: run.engine.carrier(index).map(|state| MotionSummary::of(&state)),
         ..SurfaceSummary::of(&surface.nodes_since_made(), surface.wear_volume(), &surface.worn())
     }
 }
@@ -100,11 +107,11 @@ fn body(run: &Run<'_>, index: usize, track: &Track) -> BodySummary {
     }
 }
 
-/// The energies of all bodies, `kinetic` [J] being theirs now. What the engine did to them
+/// The energies of all bodies, those of surfaces among them, `kinetic` [J] being theirs now. What the engine did to them
 /// outside of contacts counts as external work.
 pub(crate) fn energies(ledger: Ledger, bodies: &Bodies, kinetic: f64) -> EnergySummary {
     let start = |track: &Track| track.inertia.kinetic_energy(&track.start);
-    let initial: f64 = bodies.tracks.iter().map(start).sum();
+    let initial = bodies.tracks.iter().map(start).sum::<f64>() + bodies.carried_at_start();
     let outside = kinetic - initial - ledger.kinetic_change;
     let ledger = Ledger {
         external_work: ledger.external_work + outside,

@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, HashMap};
 
 use abrade::{Body, Drive, Driven, Ledger, Piece, State, Surface, Until};
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use super::plug;
-use super::plug::rapier::dynamics::{RigidBodyBuilder, RigidBodyHandle};
+use super::plug::rapier::dynamics::{MassProperties, RigidBodyBuilder, RigidBodyHandle};
 use super::plug::rapier::geometry::{ColliderBuilder, TriMeshFlags};
 use super::plug::rapier::math::Real;
 use super::plug::rapier::pipeline::PhysicsWorld;
@@ -14,8 +14,9 @@ use super::plug::{
     MicroStep, SurfaceId, WearError, WearEvent, WearObserver, WearSettings, WearWorld, scalar,
 };
 use crate::build::{Built, BuiltSurface, StandIn};
+use crate::carrier::BuiltCarrier;
 use crate::run::RunError;
-use crate::run::engine::{Counts, Ended, Engine, Sample, Stepped, Watch};
+use crate::run::engine::{Counts, Ended, Engine, Met, Sample, Stepped, Watch};
 use crate::run::extent::{length_unit, volume_sum};
 use crate::scene::Resolve;
 
@@ -28,6 +29,8 @@ pub(crate) struct World {
     wear: WearWorld,
     surfaces: Vec<SurfaceId>,
     surface_names: Vec<String>,
+    /// The bodies that moving surfaces are on.
+    carriers: Vec<Option<RigidBodyHandle>>,
     bodies: Vec<RigidBodyHandle>,
     body_names: Vec<String>,
     /// Only looked up, so its order reaches no number.
@@ -72,6 +75,7 @@ impl World {
             wear: WearWorld::new(settings),
             surfaces: Vec::new(),
             surface_names: Vec::new(),
+            carriers: Vec::new(),
             bodies: Vec::new(),
             body_names: Vec::new(),
             indices: HashMap::new(),
@@ -95,8 +99,22 @@ impl World {
             StandIn::Plate => box_below(&built.surface),
             solid => (solid_collider(solid, &built.surface)?, Isometry3::identity()),
         };
-        let proxy = proxy.position(scalar::to_pose(&(built.pose * offset)));
-        let proxy = self.world.colliders.insert(proxy);
+        let (carrier, proxy) = match &built.carrier {
+            Some(carrier) => {
+                // The body's mass is given: its collider adds none.
+                let proxy = proxy.position(scalar::to_pose(&offset)).density(0.0);
+                let body = carrier_body(carrier, &built.pose);
+                let (body, proxy) = self.world.insert(body, proxy);
+                let rb = &mut self.world.bodies[body];
+                rb.recompute_mass_properties_from_colliders(&self.world.colliders);
+                (Some(body), proxy)
+            }
+            None => {
+                let proxy = proxy.position(scalar::to_pose(&(built.pose * offset)));
+                (None, self.world.colliders.insert(proxy))
+            }
+        };
+        self.carriers.push(carrier);
         let colliders = &mut self.world.colliders;
         let placed = self.wear.insert_at(built.surface, proxy, offset.inverse(), colliders);
         let id = placed.map_err(|error| self.explain(error))?;
@@ -107,8 +125,10 @@ impl World {
     }
 
     fn add_body(&mut self, body: Body, drive: Option<&(usize, Drive)>) -> Result<(), RunError> {
+        let fixed = body.inertia.is_immovable();
         let builder = match drive {
             Some(_) => RigidBodyBuilder::kinematic_position_based(),
+            None if fixed => RigidBodyBuilder::fixed(),
             None => RigidBodyBuilder::dynamic(),
         };
         let mut builder = builder
@@ -119,7 +139,10 @@ impl World {
             builder = builder.lock_rotations();
         }
         let handle = self.world.bodies.insert(builder);
-        let density = scalar::narrow(body.inertia.mass / volume_sum(&body.shape));
+        let density = match fixed {
+            true => 1.0,
+            false => scalar::narrow(body.inertia.mass / volume_sum(&body.shape)),
+        };
         for piece in body.shape.pieces() {
             let Some(collider) = collider(piece) else { continue };
             let collider = collider.density(density);
@@ -137,6 +160,7 @@ impl World {
                     self.wear.drive(id, handle, body, *drive, &self.world.bodies)
                 })
             }
+            None if fixed => Ok(()),
             None => self.wear.place(handle, body, &mut self.world.bodies, &self.world.colliders),
         };
         done.map_err(|error| self.explain(error))
@@ -175,7 +199,7 @@ impl Engine for World {
             match event {
                 WearEvent::Ended { body, impulse, contact_time, .. } => {
                     let ended = Ended {
-                        body: self.indices[body],
+                        body: self.indices.get(body).copied(),
                         impulse: *impulse,
                         contact_time: *contact_time,
                     };
@@ -185,7 +209,7 @@ impl Engine for World {
                     }
                 }
                 WearEvent::NotResolved { body, surface, reason } => stepped.refused.push((
-                    self.indices[body],
+                    self.indices.get(body).copied(),
                     surface_index(*surface),
                     reason.to_string(),
                 )),
@@ -211,6 +235,10 @@ impl Engine for World {
 
     fn surface(&self, surface: usize) -> &Surface {
         &self.wear[self.surfaces[surface]]
+    }
+
+    fn carrier(&self, surface: usize) -> Option<State> {
+        self.wear.state(self.carriers[surface]?, &self.world.bodies)
     }
 
     fn in_contact(&self, body: usize) -> bool {
@@ -257,9 +285,15 @@ impl WearObserver for Relay<'_> {
     fn micro_step(&mut self, step: &MicroStep<'_, '_>) {
         let Some(&body) = self.indices.get(&step.body) else { return };
         let index = |id: &SurfaceId| self.surfaces.iter().position(|other| other == id);
-        let met = step.surfaces.iter().zip(step.instant.surfaces);
-        let surfaces: Vec<(usize, &Surface)> =
-            met.filter_map(|(id, placed)| Some((index(id)?, &*placed.surface))).collect();
+        let met = step.surfaces.iter().zip(step.instant.surfaces).filter_map(|(id, placed)| {
+            let carrier = placed.carrier.as_ref();
+            Some(Met {
+                index: index(id)?,
+                surface: &*placed.surface,
+                carrier: carrier.map(|carrier| carrier.state.placed_by(step.frame)),
+            })
+        });
+        let surfaces: Vec<Met<'_>> = met.collect();
         self.watch.sample(&Sample {
             body,
             time: step.time,
@@ -269,6 +303,32 @@ impl WearObserver for Relay<'_> {
             ledger: step.instant.ledger,
         });
     }
+}
+
+/// Rapier's body for a moving surface whose frame lies at `pose`.
+fn carrier_body(carrier: &BuiltCarrier, pose: &Isometry3<f64>) -> RigidBodyBuilder {
+    let builder = match &carrier.inertia {
+        None => RigidBodyBuilder::kinematic_velocity_based(),
+        Some(inertia) => {
+            let axes = inertia.tensor.symmetric_eigen();
+            let mut turn = axes.eigenvectors;
+            if turn.determinant() < 0.0 {
+                turn.column_mut(0).neg_mut();
+            }
+            let turn = UnitQuaternion::from_matrix(&turn);
+            let properties = MassProperties::with_principal_inertia_frame(
+                scalar::to_vector(&carrier.centre_local.coords),
+                scalar::narrow(inertia.mass),
+                scalar::to_vector(&axes.eigenvalues),
+                scalar::to_rotation(&turn),
+            );
+            RigidBodyBuilder::dynamic().additional_mass_properties(properties)
+        }
+    };
+    builder
+        .pose(scalar::to_pose(pose))
+        .linvel(scalar::to_vector(&carrier.state.velocity))
+        .angvel(scalar::to_vector(&carrier.state.spin))
 }
 
 /// A box under the nodes of a plate, and its middle in the plate's frame.

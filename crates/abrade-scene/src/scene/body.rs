@@ -12,7 +12,8 @@ use super::{Motion, SceneShape, vectors};
 pub struct SceneBody {
     /// Its geometry.
     pub shape: SceneShape,
-    /// Density [kg/m3]; needed unless a clump file or a drive gives the mass.
+    /// Density [kg/m3]; needed unless a clump file or a drive gives the mass, or the body is
+    /// fixed.
     #[serde(default, deserialize_with = "quantity::optional_density")]
     #[schemars(with = "Option<Quantity>")]
     pub density: Option<f64>,

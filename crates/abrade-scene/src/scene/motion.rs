@@ -10,6 +10,8 @@ use super::vectors;
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Motion {
+    /// At rest in the world, whatever strikes it: a floor, on which free surfaces wear.
+    Fixed,
     /// Flies into the surface: velocity = speed (cos angle cos azimuth, cos angle sin azimuth,
     /// -sin angle).
     Impact {

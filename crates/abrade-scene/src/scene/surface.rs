@@ -40,30 +40,39 @@ pub struct SceneSurface {
     pub rotation: Rotation,
 }
 
-/// How a surface moves.
+/// How a surface moves. Directions count in world axes.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum SurfaceMotion {
     /// At rest in the world.
     #[default]
     Fixed,
-    /// Moved as given; not available yet.
+    /// Led: it moves as given, whatever strikes it.
     Kinematic {
-        /// Velocity of its frame's origin, in world axes [m/s].
+        /// Velocity of its frame's origin [m/s].
         #[serde(default, deserialize_with = "vectors::speed3")]
         #[schemars(with = "[Quantity; 3]")]
         velocity: [f64; 3],
-        /// Angular velocity, in world axes [rad/s].
+        /// Angular velocity [rad/s].
         #[serde(default, deserialize_with = "vectors::spin3")]
         #[schemars(with = "[Quantity; 3]")]
         spin: [f64; 3],
     },
-    /// A free body; not available yet.
+    /// A free body, which what strikes it and gravity move; of solids alone, whose mesh gives the
+    /// mass.
     Free {
         /// Density [kg/m3].
         #[serde(deserialize_with = "quantity::density")]
         #[schemars(with = "Quantity")]
         density: f64,
+        /// Velocity of the centre of mass [m/s].
+        #[serde(default, deserialize_with = "vectors::speed3")]
+        #[schemars(with = "[Quantity; 3]")]
+        velocity: [f64; 3],
+        /// Angular velocity [rad/s].
+        #[serde(default, deserialize_with = "vectors::spin3")]
+        #[schemars(with = "[Quantity; 3]")]
+        spin: [f64; 3],
     },
 }
 

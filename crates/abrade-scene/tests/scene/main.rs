@@ -3,6 +3,7 @@
 mod build;
 mod closed;
 mod extremes;
+mod moving;
 mod words;
 
 use std::path::PathBuf;

@@ -106,6 +106,8 @@ fn every_alternative_is_read() {
         "surfaces.plate.elastic.stiffness=1 GPa/mm",
         "surfaces.plate.flow.lateral=Eq5",
         "surfaces.plate.removal=Fraction(of: 0.1)",
+        "surfaces.plate.motion=Kinematic(velocity: (\"1 m/s\", 0, 0), spin: (0, 0, \"60 rpm\"))",
+        "bodies.ball.motion=Fixed",
         "run.stop=FirstExit",
         "run.stop=Impacts(count: 10000)",
         "run.resolve=Micro",
@@ -117,8 +119,6 @@ fn every_alternative_is_read() {
 #[test]
 fn what_is_not_there_yet_says_so() {
     for (argument, what) in [
-        ("surfaces.plate.motion=Kinematic(velocity: (1, 0, 0))", "Kinematic"),
-        ("surfaces.plate.motion=Free(density: 7800)", "Free"),
         ("outputs.0=Checkpoint", "Checkpoint"),
         ("streams={\"sand\": (rate: 5.0, shape: Ball(radius: \"1 mm\"))}", "streams"),
     ] {
