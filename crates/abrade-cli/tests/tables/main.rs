@@ -1,5 +1,6 @@
 //! The reference tables through the command line: scenes as shipped, rows by `--set`.
 
+mod closed;
 mod independence;
 mod paper;
 mod run;

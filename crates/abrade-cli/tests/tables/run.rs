@@ -21,9 +21,18 @@ pub fn run(scene: &str, sets: &[String]) -> Value {
 /// As [`run`], with more arguments.
 pub fn run_with(scene: &str, sets: &[String], arguments: &[&str]) -> Value {
     let folder = tempfile::tempdir().expect("a folder");
+    run_into(folder.path(), scene, sets, arguments)
+}
+
+/// As [`run`], with the results in `folder`.
+pub fn run_to(folder: &Path, scene: &str, sets: &[String]) -> Value {
+    run_into(folder, scene, sets, &[])
+}
+
+fn run_into(folder: &Path, scene: &str, sets: &[String], arguments: &[&str]) -> Value {
     let mut command = Command::new(env!("CARGO_BIN_EXE_abrade"));
     command.arg("run").arg(root().join("scenes").join(scene)).arg("--json");
-    command.arg("--out").arg(folder.path()).args(arguments);
+    command.arg("--out").arg(folder).args(arguments);
     for set in sets {
         command.args(["--set", set]);
     }
@@ -45,6 +54,13 @@ pub fn at(summary: &Value, path: &str) -> f64 {
 /// Three numbers at a path.
 pub fn vector(summary: &Value, path: &str) -> [f64; 3] {
     std::array::from_fn(|i| at(summary, &format!("{path}.{i}")))
+}
+
+/// The numbers under `name` in a history.
+pub fn column(history: &Path, name: &str) -> Vec<f64> {
+    let mut reader = csv::Reader::from_path(history).expect("a history");
+    let rows = reader.deserialize().map(|row| row.expect("a row"));
+    rows.map(|row: Row| number(&row, name)).collect()
 }
 
 /// Rows of a reference table.
