@@ -111,6 +111,9 @@ pub enum Refusal {
         /// The collider.
         collider: ColliderHandle,
     },
+    /// It has a closed surface of its own, which wears as the other does.
+    #[error("the body wears as well as the surface")]
+    Wears,
     /// It lies on a surface, or slides or rolls along it.
     #[error("the body lies on the surface, or slides or rolls along it")]
     Resting,
@@ -153,6 +156,7 @@ impl Refusal {
             Self::LockedAxes => "locked_axes",
             Self::Obstructed { .. } => "obstructed",
             Self::SurfaceMoves => "surface_moves",
+            Self::Wears => "wears",
             Self::Shape { .. } => "shape",
             Self::Massless => "massless",
             Self::Inside => "inside",

@@ -38,6 +38,7 @@ mod approach;
 mod bins;
 mod booking;
 mod changed;
+mod collision;
 mod derive;
 mod drive;
 mod error;

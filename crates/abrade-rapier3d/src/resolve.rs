@@ -83,9 +83,14 @@ impl WearWorld {
     ) {
         let near = &Tracked::slot(&mut self.bodies, body).near;
         let may_hold = near.iter().all(|id| gate::can_hold(&self.lies, &self.surfaces, *id));
-        match self.settings.resolve == Resolve::Micro || reason.is_final() || !may_hold {
-            true => self.refuse(body, surface, reason),
-            false => self.hold(body, reason, world),
+        match (self.settings.resolve, may_hold) {
+            (Resolve::Auto, false) => {
+                let near = near.clone();
+                self.crowd(near, reason);
+            }
+            (Resolve::Micro, _) | (_, false) => self.refuse(body, surface, reason),
+            _ if reason.is_final() => self.refuse(body, surface, reason),
+            _ => self.hold(body, reason, world),
         }
     }
 

@@ -6,7 +6,8 @@
 pub enum Resolve {
     /// Per body and step, the cheapest that is right: Micro for a body that nothing but wear
     /// surfaces touches, Lockstep for a blow that joints or other bodies have a part in,
-    /// QuasiStatic for what lies, leans, slides or rolls.
+    /// QuasiStatic for what lies, leans, slides or rolls; on closed and on moving surfaces that others
+    /// are among, Collision.
     #[default]
     Auto,
     /// Micro alone: a body that it cannot carry is left to Rapier and wears nothing.
@@ -29,6 +30,9 @@ pub enum Resolver {
     QuasiStatic,
     /// The body and all that it touches or is jointed to are stepped finely in a private world.
     Lockstep,
+    /// Rapier keeps the contact; what it gave as a blow is run by the core as a collision of two,
+    /// which wears them both.
+    Collision,
 }
 
 impl Resolver {
@@ -38,6 +42,7 @@ impl Resolver {
             Self::Micro => "micro",
             Self::QuasiStatic => "quasi_static",
             Self::Lockstep => "lockstep",
+            Self::Collision => "collision",
         }
     }
 }

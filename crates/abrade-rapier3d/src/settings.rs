@@ -71,6 +71,8 @@ pub struct Counters {
     pub quasi_static: u64,
     /// Body steps resolved by Lockstep.
     pub lockstep: u64,
+    /// Blows between two bodies resolved by Collision.
+    pub collision: u64,
     /// Body steps left to Rapier near a wear surface, wearing nothing.
     pub refused: u64,
     /// Contact steps of the integrator.
@@ -100,8 +102,18 @@ pub struct StepReport {
 impl Counters {
     /// True when none of them can overflow.
     pub(crate) fn are_sound(&self) -> bool {
-        let Self { looked, micro, quasi_static, lockstep, refused, steps, node_evaluations } = self;
-        let all = [looked, micro, quasi_static, lockstep, refused, steps, node_evaluations];
+        let Self {
+            looked,
+            micro,
+            quasi_static,
+            lockstep,
+            collision,
+            refused,
+            steps,
+            node_evaluations,
+        } = self;
+        let bodies = [looked, micro, quasi_static, lockstep, collision, refused];
+        let all = bodies.into_iter().chain([steps, node_evaluations]);
         all.into_iter().all(|count| *count < u64::MAX / 2)
     }
 }

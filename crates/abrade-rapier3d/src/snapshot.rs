@@ -13,6 +13,7 @@ use rapier::math::Pose;
 use serde::de::{Deserialize, Deserializer, Error as _};
 use serde::ser::{Error as _, Serialize, Serializer};
 
+use crate::collision::{Bore, PairKey};
 use crate::drive::DrivenBody;
 use crate::guard::Taken;
 use crate::quasi_static::Pressing;
@@ -37,6 +38,7 @@ struct Written<'a> {
     counters: &'a Counters,
     closed: &'a Ledger,
     reasons: &'a Reasons,
+    bores: Vec<(&'a PairKey, &'a Bore)>,
 }
 
 #[derive(serde::Deserialize)]
@@ -50,6 +52,7 @@ struct Read {
     counters: Counters,
     closed: Ledger,
     reasons: Reasons,
+    bores: Vec<(PairKey, Bore)>,
 }
 
 /// Between two steps; in the middle of one it is refused.
@@ -69,6 +72,7 @@ impl Serialize for WearWorld {
             counters,
             closed,
             reasons,
+            bores,
             obstacles: _,
             neighbours: _,
             changed: _,
@@ -84,8 +88,19 @@ impl Serialize for WearWorld {
             events: _,
             current: _,
         } = self;
-        Written { settings, surfaces, taken, bodies, registered, driven, counters, closed, reasons }
-            .serialize(to)
+        Written {
+            settings,
+            surfaces,
+            taken,
+            bodies,
+            registered,
+            driven,
+            counters,
+            closed,
+            reasons,
+            bores: bores.iter().collect(),
+        }
+        .serialize(to)
     }
 }
 
@@ -103,9 +118,22 @@ impl<'de> Deserialize<'de> for WearWorld {
             counters,
             closed,
             reasons,
+            bores,
         } = read;
+        let bores = bores.into_iter().collect();
         let empty = Self::new(settings);
-        Ok(Self { surfaces, taken, bodies, registered, driven, counters, closed, reasons, ..empty })
+        Ok(Self {
+            surfaces,
+            taken,
+            bodies,
+            registered,
+            driven,
+            counters,
+            closed,
+            reasons,
+            bores,
+            ..empty
+        })
     }
 }
 
@@ -172,6 +200,8 @@ impl Read {
             require(own as usize == index, "a body is not in its place")?;
             self.check_body(tracked)?;
         }
+        let bores = self.bores.iter().all(|(_, bore)| bore.is_sound());
+        require(bores, "the impulse of a contact is out of range")?;
         let identity = Isometry3::identity();
         let mut driven = self.driven.iter();
         let sound =

@@ -94,6 +94,12 @@ impl Scene<'_> {
             return Err(refusal.into());
         }
         tracked.derive(rb, self.world.colliders)?;
+        let is_own = |worn: &WornCollider| rb.colliders().contains(&worn.proxy);
+        let wears = self.surfaces.iter().any(|worn| is_own(worn) && !worn.surface.is_flat());
+        let crowds = |id: &SurfaceId| !gate::can_hold(self.lies, self.surfaces, *id);
+        if self.settings.resolve == Resolve::Auto && wears && tracked.near.iter().any(crowds) {
+            return Err(Refusal::Wears.into());
+        }
         if tracked.is_in_lockstep_blow() {
             return Err(Refusal::Blow.into());
         }

@@ -98,8 +98,9 @@ impl WearWorld {
             }
             self.strike_walls(&walkers, &world);
             let may_wake = !self.sleepers.is_empty();
-            if may_wake || !self.held.is_empty() {
-                self.before.note(&world, &self.bodies, &self.held, may_wake);
+            let is_crowded = !self.current.crowded.is_empty();
+            if may_wake || is_crowded || !self.held.is_empty() {
+                self.before.note(&world, &self.bodies, &self.held, may_wake || is_crowded);
             }
             self.steer(&mut world, &gravity);
             if !self.driven.is_empty() {
@@ -157,6 +158,7 @@ impl WearWorld {
         if !self.held.is_empty() {
             self.settle_held(&mut world, observer);
         }
+        self.collide(&world);
         self.renew_solids(&mut world);
         let mut proxies = self.surfaces.iter().map(|worn| worn.proxy);
         let proxy = proxies.find(|&proxy| world.colliders.contains(proxy));

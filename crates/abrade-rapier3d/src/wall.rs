@@ -17,6 +17,7 @@ use crate::gate::{Course, Lie};
 use crate::micro;
 use crate::obstacle::Search;
 use crate::path::Extent;
+use crate::resolver::Resolve;
 use crate::surface::SurfaceId;
 use crate::track::Track;
 use crate::tracked::Tracked;
@@ -89,7 +90,10 @@ impl WearWorld {
                 Beside::Nothing => self.leave_wall(body),
                 Beside::Bound(reason) => {
                     self.leave_wall(body);
-                    self.refuse(body, surface, reason);
+                    match self.settings.resolve == Resolve::Auto {
+                        true => self.crowd([surface], reason),
+                        false => self.refuse(body, surface, reason),
+                    }
                 }
                 Beside::Wall(wall) => match self.strike_wall(walker, wall, world) {
                     Ok(true) => {}
@@ -222,7 +226,7 @@ impl WearWorld {
 
 /// The part of a wall in the box `part` of the world, as a body in `frame`; boxes and half-spaces
 /// are cut to it.
-fn striker(collider: &Collider, part: &Extent, frame: &Isometry3<f64>) -> Option<Body> {
+pub(crate) fn striker(collider: &Collider, part: &Extent, frame: &Isometry3<f64>) -> Option<Body> {
     let pose = scalar::pose(collider.position());
     let (shape, place) = match collider.shape().as_typed_shape() {
         TypedShape::HalfSpace(half) => {

@@ -11,9 +11,10 @@ use rapier::dynamics::{RigidBodyHandle, RigidBodySet};
 use rapier::geometry::ColliderSet;
 
 use crate::changed::Changed;
+use crate::collision::Bores;
 use crate::drive::DrivenBody;
 use crate::error::WearError;
-use crate::event::WearEvent;
+use crate::event::{Refusal, WearEvent};
 use crate::gate::Lie;
 use crate::glance::Glances;
 use crate::guard::Taken;
@@ -61,6 +62,8 @@ pub struct WearWorld {
     pub(crate) sleepers: Vec<RigidBodyHandle>,
     /// States before this step, if any body is held.
     pub(crate) before: Before,
+    /// What the contacts of crowded surfaces bear, between the steps.
+    pub(crate) bores: Bores,
     pub(crate) driven: Vec<DrivenBody>,
     pub(crate) events: Vec<WearEvent>,
     pub(crate) counters: Counters,
@@ -95,6 +98,8 @@ pub(crate) struct Current {
     /// Dynamic bodies whose surfaces have been struck, which were carried with what struck them,
     /// and boxes around wherever they may have got.
     pub carried: Vec<(RigidBodyHandle, Extent)>,
+    /// Surfaces whose contacts wear by their impulses, and why.
+    pub crowded: Vec<(SurfaceId, Refusal)>,
 }
 
 impl WearWorld {

@@ -61,8 +61,6 @@ pub(crate) struct Answer {
     pub sprung: Push,
     /// Dashpots over the step.
     pub damping: Push,
-    /// Two worn surfaces over the step, by which they are given back what they gave too much.
-    pub mutual: Push,
 }
 
 /// What one contact does to the body, about its centre of mass: its springs at the present
@@ -287,21 +285,15 @@ impl Integrator {
 
     /// Gives every carrier the reaction to impulses on the body at `state`.
     pub(crate) fn react(&mut self, state: &State, part: impl Fn(&Answer) -> Push) {
-        self.give(state, &part);
-        for (answer, hand) in self.answers.iter().zip(&mut self.hands) {
-            let push = part(answer);
-            hand.swept.force += push.impulse;
-            hand.swept.torque += push.torque;
-        }
-    }
-
-    /// As [`Integrator::react`], for impulses that the next step should not expect.
-    pub(crate) fn give(&mut self, state: &State, part: impl Fn(&Answer) -> Push) {
-        for (ride, answer) in self.rides.iter_mut().zip(&self.answers) {
+        for ((ride, answer), hand) in self.rides.iter_mut().zip(&self.answers).zip(&mut self.hands)
+        {
             let Some(ride) = ride else { continue };
-            let back = reaction(&grip(&part(answer)), state, &ride.end);
+            let push = grip(&part(answer));
+            let back = reaction(&push, state, &ride.end);
             ride.end.velocity += ride.dynamics.accelerate(&back.force);
             ride.end.spin += ride.dynamics.turn(&ride.end.rotation, &back.torque);
+            hand.swept.force += push.force;
+            hand.swept.torque += push.torque;
         }
     }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use crate::body::State;
+use crate::body::{Body, State};
 use crate::columns::Columns;
 use crate::damping::{Damping, Dashpots};
 use crate::encounter::{Placed, Skin};
@@ -116,15 +116,15 @@ impl Contact {
         Some(if self.is_rigid() { pitch } else { pitch.min(SWEEP_YIELD * columns.yield_overlap()) })
     }
 
-    /// Makes sure that the candidates cover the body at `state`, which moves by `reach` [m] in a
-    /// step.
-    pub(crate) fn cover(&mut self, placed: &Placed<'_>, shape: &Shape, state: &State, reach: f64) {
-        let surface = &*placed.surface;
+    /// Makes sure that the candidates cover the `body` at `state`, where a step ends in which it moves by
+    /// `reach` [m].
+    pub(crate) fn cover(&mut self, placed: &Placed<'_>, body: &Body, state: &State, reach: f64) {
+        let (surface, shape) = (&*placed.surface, &body.shape);
         let margin = |pitches: f64| (LIST_STEPS * reach).max(pitches * surface.pitch());
         match self {
             Self::Springs(patch) => patch.cover(surface, shape, state, margin(LIST_PITCH)),
             Self::Columns(columns) => columns.cover(surface, shape, state, margin(SWEPT_PITCH)),
-            Self::Mutual(mutual) => mutual.cover(placed, shape, state, margin(MUTUAL_PITCH)),
+            Self::Mutual(mutual) => mutual.cover(placed, body, state, margin(MUTUAL_PITCH)),
         }
     }
 
@@ -193,8 +193,10 @@ impl Contact {
 
     /// End of a contact.
     pub(crate) fn end(&mut self, surface: &mut Surface) {
-        if let Self::Columns(columns) = self {
-            columns.end_contact(surface);
+        match self {
+            Self::Springs(_) => {}
+            Self::Columns(columns) => columns.end_contact(surface),
+            Self::Mutual(mutual) => mutual.let_go(),
         }
     }
 }

@@ -196,6 +196,13 @@ impl Encounter {
         self.integrator.advance(body, surfaces, loads, duration, until, observer)
     }
 
+    /// Ends the contact where it is: overhangs break off.
+    pub fn end(&mut self, surfaces: &mut [Placed<'_>]) {
+        if self.integrator.fits(surfaces).is_ok() {
+            self.integrator.end_contact(surfaces);
+        }
+    }
+
     /// True while a node carries force.
     pub fn in_contact(&self) -> bool {
         self.integrator.in_contact()

@@ -79,7 +79,6 @@ impl Integrator {
         }
         self.touching = false;
         self.touched = false;
-        self.owed = 0.0;
     }
 
     /// Distance between the boxes of the body and of the first surface [m].

@@ -42,7 +42,7 @@ pub(crate) fn free_time(
         }
         Contact::Mutual(mutual) => {
             let Some(skin) = &placed.skin else { return 0.0 };
-            mutual.cover(placed, &body.shape, local, margin);
+            mutual.cover(placed, body, local, margin);
             let slack = mutual.slack(&body.shape, local).max(0.0);
             let covered = time_to_close(slack, speed, acceleration);
             return mutual.time_to_touch(skin, local, speed, acceleration).min(covered);

@@ -47,8 +47,6 @@ pub(crate) struct Reaction {
     pub lever_squared: f64,
     /// Nodes that carry force.
     pub touching: usize,
-    /// Work of the normal forces on what the striker gave way by [J].
-    pub way_work: f64,
     pub ledger: Ledger,
 }
 
@@ -69,7 +67,6 @@ impl Reaction {
         self.overlap_change = self.overlap_change.max(other.overlap_change);
         self.lever_squared = self.lever_squared.max(other.lever_squared);
         self.touching += other.touching;
-        self.way_work += other.way_work;
         self.ledger += other.ledger;
     }
 }
@@ -144,7 +141,7 @@ impl Reaction {
     /// Adds what one node does.
     #[inline(always)]
     fn take<E: Elastic, Q>(&mut self, answer: &Answer, node: &NodeStep<'_, E, Q>) {
-        let Answer { spring, loaded: k, overlap_change, given_way } = answer;
+        let Answer { spring, loaded: k, overlap_change } = answer;
         let coefficient = k.touch.coefficient;
         let force = k.touch.contact_normal * k.normal_force + k.tangential;
         self.force -= force;
@@ -160,7 +157,6 @@ impl Reaction {
         }
         self.overlap_change = self.overlap_change.max(*overlap_change);
         self.lever_squared = self.lever_squared.max(k.touch.arm.norm_squared());
-        self.way_work += k.normal_force * given_way;
         self.touching += 1;
     }
 }

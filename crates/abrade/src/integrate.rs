@@ -82,8 +82,6 @@ pub(crate) struct Integrator {
     pub(crate) dashpots: Dashpots,
     /// Energy that projections with springs were short of [J].
     pub(crate) short: f64,
-    /// Energy by which two worn surfaces gave way too much, not yet given back [J].
-    pub(crate) owed: f64,
     ledger: Ledger,
 }
 
@@ -144,7 +142,6 @@ impl Integrator {
             answers: Vec::new(),
             ahead: Vector3::zeros(),
             short: 0.0,
-            owed: 0.0,
             ledger: Ledger::default(),
         })
     }
@@ -402,7 +399,7 @@ impl Integrator {
     ) -> impl Iterator<Item = f64> + 'a {
         self.contacts.iter_mut().zip(surfaces).map(|(contact, placed)| {
             let local = placed.sees(&body.state);
-            contact.cover(placed, &body.shape, &local, 0.0);
+            contact.cover(placed, body, &local, 0.0);
             contact.deepest(placed, &body.shape, &local)
         })
     }
@@ -411,7 +408,6 @@ impl Integrator {
     pub(crate) fn lose_springs(&mut self) {
         self.pull = Pull::default();
         (self.touching, self.touched) = (false, false);
-        self.owed = 0.0;
         self.ledger.history += std::mem::take(&mut self.ledger.elastic);
     }
 
@@ -468,7 +464,7 @@ impl Integrator {
         let mut pairs = self.contacts.iter().zip(&self.node_counts);
         let within = pairs.all(|(contact, &nodes)| contact.lies_on(nodes));
         require(same && within, "a candidate is no node of its surface")?;
-        let energies = finite(&[self.energy_before, self.short, self.owed]);
+        let energies = finite(&[self.energy_before, self.short]);
         let hands = self.hands.iter().all(Hand::is_finite);
         let finite = energies && hands && self.pull.is_finite();
         require(finite, "the forces of a contact are not finite")?;

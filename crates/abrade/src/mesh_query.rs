@@ -44,11 +44,6 @@ impl MeshQuery {
     pub(crate) fn seat(&self, x: &Point3<f64>) -> Option<([u32; 3], [f64; 3])> {
         self.facets.seat(&self.pose.inverse_transform_point(x))
     }
-
-    /// See [`Facets::refresh`].
-    pub(crate) fn refresh(&mut self, surface: &Surface) {
-        self.facets.refresh(surface);
-    }
 }
 
 impl Query for MeshQuery {

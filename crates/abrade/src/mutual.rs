@@ -1,15 +1,19 @@
 //! Two worn surfaces that meet: the nodes of each against the facets of the other.
 //!
 //! The softer flows, and the nodes of the harder are not asked: its facets are what they meet. Of
-//! equals the nodes of each carry half the force, and half of every drop is the node's, half that of
-//! the corners of the facet that it leans on. So the force of the pair is counted once, both lose the
-//! same volume, and that is what the motion paid. Nodes that took their part of a drop by themselves
-//! would not do: on a curved floor the nodes of one side lie deeper in the other's facets than those
-//! of the other, and would sink alone.
+//! equals the nodes of each carry half the force. While they are in contact a node goes all of its
+//! way, as if it alone were to wear: so the motion pays for the volume to round-off, whatever the
+//! meshes are. Of that volume half is the node's, half that of the corners of the facet that it leans
+//! on. What the two have come to look like is seen where the lists of a contact are made anew; the
+//! springs keep their overlaps then.
+//!
+//! Two sets of nodes that meet what the other has worn at every step would each have to fit the
+//! other's facets: of stiff springs, thinner than the facets are rough, the motion pays for less than
+//! sinks.
 
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 
-use crate::body::State;
+use crate::body::{Body, State};
 use crate::candidates::travel;
 use crate::encounter::{Placed, Skin};
 use crate::error::PhysicsError;
@@ -43,6 +47,10 @@ pub(crate) struct Mutual {
     #[cfg_attr(feature = "state", serde(skip))]
     lists: Lists,
     read: Option<[Point3<f64>; 2]>,
+    /// A node was touched in the last trial, and in the contact that goes on.
+    #[cfg_attr(feature = "state", serde(skip))]
+    touches: bool,
+    goes_on: bool,
 }
 
 /// Facets near the contact: of the surface that is met, and of the body's own.
@@ -99,6 +107,8 @@ impl Mutual {
             skin: (skin.surface.nodes().len(), skin.surface.renewals()),
             lists: Lists::default(),
             read: None,
+            touches: false,
+            goes_on: false,
         })
     }
 
@@ -127,8 +137,10 @@ impl Mutual {
         self.made.as_ref().map_or(-1.0, |(at, margin)| margin - travel(shape, at, local))
     }
 
-    /// Makes sure that the lists cover the body at `local`; `margin` [m] is the reach of new ones.
-    pub(crate) fn cover(&mut self, placed: &Placed<'_>, shape: &Shape, local: &State, margin: f64) {
+    /// Makes sure that the lists cover the `body` at `local`, where a step ends; `margin` [m] is the reach
+    /// of new ones.
+    pub(crate) fn cover(&mut self, placed: &Placed<'_>, body: &Body, local: &State, margin: f64) {
+        let shape = &body.shape;
         let Some(skin) = &placed.skin else { return };
         if self.slack(shape, local) >= 0.0 {
             return;
@@ -144,15 +156,17 @@ impl Mutual {
         self.lists.own.clear();
         skin.surface.visit_facets(&low, &high, |corners| self.lists.own.push(corners));
         self.lists.own.sort_unstable();
+        let began = body.state.seen_from(&placed.pose);
         let reach = 2.0 * margin + REACH_YIELD * self.yield_overlap();
-        let Lists { met: facets, own } = &self.lists;
+        let (Lists { met: facets, own }, on) = (&self.lists, self.goes_on);
         if let Some(forth) = &mut self.forth {
             let near = |x: &Point3<f64>| clearance(shape, local, x) < margin;
-            forth.meet([met, skin.surface], [facets, own], near, reach);
+            forth.meet([met, skin.surface], [facets, own], near, reach, on.then_some(&began));
         }
         if let Some(back) = &mut self.back {
             let near = |x: &Point3<f64>| (0..3).all(|a| x[a] >= low[a] && x[a] <= high[a]);
-            back.meet([skin.surface, met], [own, facets], near, reach);
+            let other = striker(&(began.pose() * skin.pose));
+            back.meet([skin.surface, met], [own, facets], near, reach, on.then_some(&other));
         }
     }
 
@@ -202,7 +216,7 @@ impl Mutual {
         }
         let [forth, back] =
             [&self.forth, &self.back].map(|p| p.as_ref().map_or(0.0, Patch::normal_load));
-        sum.way_work *= f64::from(u8::from(self.forth.is_some() && self.back.is_some()));
+        self.touches = sum.touching > 0;
         self.forth.iter_mut().for_each(|patch| patch.add_load(back));
         self.back.iter_mut().for_each(|patch| patch.add_load(forth));
         sum
@@ -212,22 +226,19 @@ impl Mutual {
     pub(crate) fn commit(&mut self, placed: &mut Placed<'_>) {
         let Some(skin) = &mut placed.skin else { return };
         let (met, own) = (&mut *placed.surface, &mut *skin.surface);
-        let flows = self.patches().any(Patch::flows);
-        if let (true, Some(forth), Some(back)) = (flows, &self.forth, &self.back) {
+        if let (Some(forth), Some(back)) = (&self.forth, &self.back) {
             forth.hand_over(own);
             back.hand_over(met);
         }
         self.forth.iter_mut().for_each(|patch| patch.commit(met));
         self.back.iter_mut().for_each(|patch| patch.commit(own));
-        if flows {
-            self.forth.iter_mut().for_each(|patch| patch.follow(met, own));
-            self.back.iter_mut().for_each(|patch| patch.follow(own, met));
-        }
+        self.goes_on |= self.touches;
     }
 
     /// Lets every spring go.
     pub(crate) fn let_go(&mut self) {
         self.made = None;
+        self.goes_on = false;
         [&mut self.forth, &mut self.back].into_iter().flatten().for_each(Patch::let_go);
     }
 

@@ -234,9 +234,6 @@ pub(crate) struct Answer {
     pub loaded: Loaded,
     /// Change of the overlap over the step; of a node touched afresh, before it sank [m].
     pub overlap_change: f64,
-    /// What the striker gave way by before the node sank: the approach less the growth of the
-    /// overlap [m].
-    pub given_way: f64,
 }
 
 /// Takes a node through one step; None when it is out of contact at the end.
@@ -288,11 +285,7 @@ pub(crate) fn resolve<E: Elastic, Q: Query, F: Flow>(
         true => (spring.overlap - old.overlap).abs(),
         false => trial.overlap,
     };
-    let given_way = match was_in_contact {
-        true => approach - (trial.overlap - old.overlap),
-        false => 0.0,
-    };
-    Some(Answer { spring, loaded, overlap_change, given_way })
+    Some(Answer { spring, loaded, overlap_change })
 }
 
 /// The body's advance over the step, as the flow laws split it.

@@ -14,9 +14,6 @@ use crate::toll::Push;
 /// could balance it.
 const SPRING_SCALES: [f64; 2] = [0.8, 1.2];
 
-/// Largest part of the force of two surfaces by which their energy is mended in a step.
-const NUDGE: f64 = 0.2;
-
 /// Scale of an impulse, and the share of the removal that the body can pay: below 1 when it is
 /// blocked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,13 +83,6 @@ pub(crate) fn balance(Change { a, b }: Change, cost: f64) -> (f64, f64) {
     (scale, short(scale))
 }
 
-/// Scale of an impulse that gives the bodies `gain` [J], and how much is left to give [J].
-pub(crate) fn nudge(Change { a, b }: Change, gain: f64) -> (f64, f64) {
-    let root = 2.0 * gain / (b + (b * b + 4.0 * a * gain).sqrt().copysign(b));
-    let scale = if root.is_nan() { 0.0 } else { root.clamp(-NUDGE, NUDGE) };
-    (scale, gain - (a * scale + b) * scale)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -119,24 +109,6 @@ mod tests {
             assert!((lost - share * cost).abs() < 1e-15 * energy, "{impulse} {cost}");
             assert_eq!(share, if cost > energy { 0.5 } else { 1.0 });
         }
-    }
-
-    /// Fails for a nudge that gives another energy than asked, or more than its part of the force.
-    #[test]
-    fn a_nudge_gives_what_is_asked() {
-        let inertia = Inertia::of_ball(1.0, 1.0);
-        let dynamics = Dynamics::new(&inertia, false).expect("a ball");
-        let mut state = State::at(Point3::origin());
-        for (velocity, gain) in [(-1.0, 0.01), (-1.0, -0.01), (1.0, 0.01), (1.0, -0.01)] {
-            state.velocity.z = velocity;
-            let (scale, left) = nudge(Change::of(&push(0.1), &state, &dynamics), gain);
-            let v = velocity + scale * 0.1 / inertia.mass;
-            let gained = 0.5 * inertia.mass * (v * v - 1.0);
-            assert!(left.abs() < 1e-15 && (gained - gain).abs() < 1e-15, "{velocity} {gain}");
-        }
-        state.velocity.z = 1e-9;
-        let (scale, left) = nudge(Change::of(&push(0.1), &state, &dynamics), 0.01);
-        assert!(scale == NUDGE && left > 0.009, "{scale} {left}");
     }
 
     /// Fails for springs that lose energy where a scale near 1 can keep it.

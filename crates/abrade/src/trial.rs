@@ -12,7 +12,7 @@ use crate::inner_loop::Reaction;
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
 use crate::node_law::Motion;
-use crate::projection::{Payment, balance, nudge, pay};
+use crate::projection::{Payment, balance, pay};
 use crate::rotation::Dynamics;
 #[cfg(feature = "state")]
 use crate::state::finite;
@@ -54,9 +54,6 @@ pub(crate) struct Trial {
     pub shift: Vector3<f64>,
     pub turn: Vector3<f64>,
     springs: Reaction,
-    /// Impulses of two worn surfaces, and the energy by which they gave way too much [J].
-    mutual: Push,
-    way_work: f64,
     pub toll: Toll,
     pub touching: usize,
     pub evaluations: u64,
@@ -201,8 +198,6 @@ impl Integrator {
             shift: velocity * dt,
             turn: spin * dt,
             springs: Reaction::default(),
-            mutual: Push::default(),
-            way_work: 0.0,
             toll: Toll::default(),
             touching: 0,
             evaluations: 0,
@@ -229,7 +224,7 @@ impl Integrator {
                     (velocity.norm() + spin.norm() * body.shape.bounding_radius()) * dt
                 }
             };
-            contact.cover(placed, &body.shape, &end, reach.min(placed.surface.pitch()));
+            contact.cover(placed, body, &end, reach.min(placed.surface.pitch()));
             match contact {
                 Contact::Springs(patch) => {
                     let reaction = patch.trial(placed.surface.laws(), &end, &motion);
@@ -242,13 +237,8 @@ impl Integrator {
                     let levers = body.shape.bounding_radius();
                     let reaction = mutual.trial(placed, &end, &motion, levers);
                     trial.springs.add(&reaction, &pose);
-                    let grip = reaction.grip().turned(&pose);
-                    let Grip { force, torque } = grip * dt;
-                    trial.mutual = Push { impulse: force, torque, friction: 0.0 };
-                    trial.way_work = reaction.way_work;
                     if ride.is_some() {
-                        self.answers[i].springs = grip;
-                        self.answers[i].mutual = trial.mutual;
+                        self.answers[i].springs = reaction.grip().turned(&pose);
                     }
                 }
                 Contact::Columns(columns) => {
@@ -352,23 +342,6 @@ impl Integrator {
         }
     }
 
-    /// Gives two worn surfaces and what they are on back by what they gave way too much: where a node
-    /// meets a facet with a corner out of contact, the part of a drop that is the other's is not
-    /// what the other has sunk by. Returns what the body gets.
-    fn give_back_way(&mut self, trial: &Trial, state: &mut State) -> Push {
-        let gain = trial.way_work + self.owed;
-        if gain == 0.0 {
-            return Push::default();
-        }
-        let change = self.change(&trial.mutual, state, |answer| &answer.mutual);
-        let (scale, left) = nudge(change, gain);
-        self.owed = left;
-        let push = trial.mutual.scaled(scale);
-        self.apply(&push, state);
-        self.give(state, |answer| answer.mutual.scaled(scale));
-        push
-    }
-
     /// Commits a trial: second kick, projection, nodes.
     pub(crate) fn settle(
         &mut self,
@@ -399,14 +372,10 @@ impl Integrator {
             torque += self.damping.torque;
         }
         self.short = short;
-        let given = self.give_back_way(trial, &mut state);
-        impulse += given.impulse;
-        torque += given.torque;
         let (elastic, push) = self.commit(surfaces, trial, share);
-        let [swept, twisted] = [impulse - given.impulse, torque - given.torque];
         let pull = Pull {
-            force: springs.force + swept / dt,
-            torque: springs.torque + twisted / dt,
+            force: springs.force + impulse / dt,
+            torque: springs.torque + torque / dt,
             spring_force: springs.force,
             spring_torque: springs.torque,
             push,

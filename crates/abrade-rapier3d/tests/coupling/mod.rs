@@ -2,6 +2,7 @@
 //! Both precisions run the same tests.
 
 mod closed;
+mod collision;
 mod crowd;
 mod gate;
 mod hail;

@@ -309,7 +309,8 @@ impl Patch {
             let [normal, lateral] = [drop.normal, drop.lateral].map(|drop| part * drop);
             let total = normal + lateral;
             if spring.overlap > 0.0 && total > 0.0 {
-                slot.x -= slot.n * total;
+                // In the contact a node stands for both sides: it goes all the way.
+                slot.x -= slot.n * (drop.normal + drop.lateral);
                 surface.sink(slot.id, total);
                 surface.gain.normal += slot.area * normal;
                 surface.gain.lateral += slot.area * lateral;

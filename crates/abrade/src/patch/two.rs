@@ -3,11 +3,16 @@
 use nalgebra::{Isometry3, Point3};
 
 use super::{Patch, yield_overlap};
+use crate::body::State;
+use crate::candidates::Slot;
 use crate::elastic::coefficient_of_two;
 use crate::mesh_query::MeshQuery;
-use crate::node_law::Spring;
-use crate::query::BodyQuery;
+use crate::node_law::{STEEP, Spring};
+use crate::query::{BodyQuery, Query};
 use crate::surface::Surface;
+
+/// Corrections that bring a node to a wanted overlap.
+const HOLDS: usize = 4;
 
 impl Patch {
     /// The nodes of `surface` against the facets of `other`, whose frame is at `offset` in that of
@@ -27,26 +32,26 @@ impl Patch {
     }
 
     /// Takes the corners of `facets` of `surface` that are `near` for candidates, against the facets
-    /// of `other` that have the corners `strikers`, found within `reach` [m].
+    /// of `other` that have the corners `strikers`, found within `reach` [m]. In a contact that goes
+    /// on with the striker in a state, what both have worn comes to light; no spring feels that, and
+    /// no other node is touched by it.
     pub(crate) fn meet(
         &mut self,
         [surface, other]: [&Surface; 2],
         [facets, strikers]: [&[[u32; 3]]; 2],
         near: impl Fn(&Point3<f64>) -> bool,
         reach: f64,
+        going_on: Option<&State>,
     ) {
         self.collect(&surface.laws, |candidates| {
             candidates.collect_corners(surface, facets, near);
         });
-        if let BodyQuery::Mesh(query) = &mut self.query {
-            query.set(strikers, other, reach);
+        let BodyQuery::Mesh(query) = &mut self.query else { return };
+        query.set(strikers, other, reach);
+        if let Some(state) = going_on {
+            query.place(state);
+            hold(query, &mut self.candidates.slots, &self.old);
         }
-    }
-
-    /// True when a node sinks in the last trial.
-    pub(crate) fn flows(&self) -> bool {
-        let sinks = |s: &Spring| s.overlap > 0.0 && s.drop.normal + s.drop.lateral > 0.0;
-        self.new.iter().any(sinks)
     }
 
     /// Lets the corners of the facets that nodes of an equal lean on sink by their part of the last
@@ -71,14 +76,19 @@ impl Patch {
             }
         }
     }
+}
 
-    /// Takes over what has worn on both surfaces.
-    pub(crate) fn follow(&mut self, surface: &Surface, other: &Surface) {
-        for slot in &mut self.candidates.slots {
-            slot.x = surface.position(slot.id as usize);
-        }
-        if let BodyQuery::Mesh(query) = &mut self.query {
-            query.refresh(other);
+/// Moves the nodes to where pressed ones have the overlaps of their springs, and the others none.
+fn hold(query: &MeshQuery, slots: &mut [Slot], springs: &[Spring]) {
+    for (slot, spring) in slots.iter_mut().zip(springs) {
+        for _ in 0..HOLDS {
+            let touch = query.touch(&slot.x, &slot.n);
+            let excess = touch.overlap - spring.overlap;
+            let cosine = -touch.contact_normal.dot(&slot.n);
+            if cosine <= STEEP || spring.overlap == 0.0 && excess <= 0.0 {
+                break;
+            }
+            slot.x -= slot.n * (excess / cosine);
         }
     }
 }
