@@ -1,7 +1,9 @@
 //! The island and its steps.
 
 use abrade::{Met, PhysicsError, Placed, State};
-use rapier::dynamics::{GenericJoint, Multibody, MultibodyJoint, RigidBody, RigidBodyHandle};
+use rapier::dynamics::{
+    GenericJoint, LockedAxes, Multibody, MultibodyJoint, RigidBody, RigidBodyHandle,
+};
 use rapier::math::Vector;
 use rapier::pipeline::{ActiveHooks, PhysicsWorld};
 
@@ -63,6 +65,8 @@ pub struct Island {
     coarsest: f64,
     /// Length of the last step [s], if its impulses are those of the next one but for their length.
     known: Option<f64>,
+    /// The next step stops a body.
+    stops: bool,
     /// Its budget is spent: nothing wakes it.
     is_out: bool,
 }
@@ -125,6 +129,7 @@ impl Island {
             turn,
             coarsest: 0.0,
             known: None,
+            stops: false,
             is_out: false,
         }
     }
@@ -137,8 +142,10 @@ impl Island {
     /// Takes the island through `duration` [s]. `watch` sees it after every step, with the time
     /// gone by [s].
     ///
+    /// A body whose crater gets deeper than it is stops there ([`Wearer::beyond`]).
+    ///
     /// # Errors
-    /// A physical state outside the model's reach, or too many steps.
+    /// A state that is not finite, or too many steps.
     pub fn advance(
         &mut self,
         surfaces: &mut [Placed<'_>],
@@ -251,9 +258,34 @@ impl Island {
                 }
             }
         }
-        self.known = (!self.pairs.strikes).then_some(h);
+        let stops = self.stop_the_lost(surfaces);
+        let is_blow = self.pairs.strikes || stops || self.stops;
+        (self.known, self.stops) = ((!is_blow).then_some(h), stops);
         self.watch_calm(surfaces, h);
         Ok(h)
+    }
+
+    /// Stops bodies that their surfaces can follow no further; true if there are any. What drives
+    /// them on may be so heavy that Rapier's solver does not see it stopped by a contact: they are
+    /// held. A link is not, but its articulation is stopped with it.
+    fn stop_the_lost(&mut self, surfaces: &mut [Placed<'_>]) -> bool {
+        let mut any = false;
+        for wearer in &mut self.wearers {
+            if !wearer.give_up(surfaces) {
+                continue;
+            }
+            any = true;
+            let is_link = self.world.multibody_joints.rigid_body_link(wearer.handle).is_some();
+            let rb = self.world.bodies.get_mut(wearer.handle).filter(|_| !is_link);
+            let Some(rb) = rb else { continue };
+            rb.set_linvel(Vector::ZERO, false);
+            rb.set_angvel(Vector::ZERO, false);
+            rb.set_locked_axes(LockedAxes::all(), false);
+        }
+        if any {
+            self.mark();
+        }
+        any
     }
 
     /// Sets the forces of the present instant.
@@ -301,7 +333,7 @@ impl Island {
 
     /// Does a body at rest bear an impulse, in a step of `h` [s], that resting does not explain?
     fn is_struck(&self, wearer: &Wearer, h: f64) -> bool {
-        if !wearer.calm.rests || self.is_out {
+        if !wearer.calm.rests || self.is_out || wearer.beyond().is_some() {
             return false;
         }
         let jolt = wearer.body.inertia.mass * self.settings.rest_speed / self.coarsest;

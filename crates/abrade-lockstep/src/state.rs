@@ -1,7 +1,7 @@
 //! A wearing body between two islands to bytes and back, for binary formats of serde.
 //!
-//! Its handle, its loads and its sums are those of an island and are not kept: what is read must
-//! join the next one by [`Wearer::resumed`].
+//! Its handle, its loads, its sums and why it was stopped are those of an island and are not kept:
+//! what is read must join the next one by [`Wearer::resumed`].
 
 use abrade::{Body, Carried, Loads};
 use rapier::dynamics::RigidBodyHandle;

@@ -39,6 +39,8 @@ pub struct Wearer {
     mark: Vec<f64>,
     /// A node has flowed in the last step.
     pub(crate) wears: bool,
+    /// Why its surfaces can follow it no further.
+    beyond: Option<PhysicsError>,
     booked: Ledger,
     seen: u64,
 }
@@ -83,6 +85,7 @@ impl Wearer {
             worn: vec![0.0; lifts.len()],
             mark: vec![0.0; lifts.len()],
             wears: false,
+            beyond: None,
             uses: Vec::new(),
             lifts,
             booked: *contact.ledger(),
@@ -97,7 +100,8 @@ impl Wearer {
         let (impulse, contact_time) = (Vector3::zeros(), 0.0);
         let booked = *self.contact.ledger();
         let seen = self.contact.node_evaluations();
-        Self { handle, loads, impulse, contact_time, worn, booked, seen, uses, ..self }
+        let beyond = None;
+        Self { handle, loads, impulse, contact_time, worn, beyond, booked, seen, uses, ..self }
     }
 
     /// True when it rests on a contact of Rapier's.
@@ -108,6 +112,12 @@ impl Wearer {
     /// True when it only rings on its springs, though it may wear as it slides along.
     pub fn is_slow(&self) -> bool {
         self.calm.is_slow
+    }
+
+    /// Why its surfaces could follow it no further, if they could not: the crater was deeper than
+    /// the body. There it was stopped, and nothing wakes it.
+    pub fn beyond(&self) -> Option<&PhysicsError> {
+        self.beyond.as_ref()
     }
 
     /// Volume displaced on each of its surfaces since it joined the island [m3].
@@ -146,6 +156,9 @@ impl Wearer {
     /// the body has moved they would push it back with energy that nobody gave: it begins anew,
     /// outside of surfaces that are lowered for it to where it is.
     pub(crate) fn wake(&mut self, surfaces: &mut [Placed<'_>]) {
+        if self.beyond.is_some() {
+            return;
+        }
         if self.calm.rests && !self.is_in_place() {
             self.wear(surfaces, |contact, _, surfaces| contact.let_go(surfaces));
             self.lifts.fill(0.0);
@@ -154,6 +167,16 @@ impl Wearer {
             self.left = self.body.state;
         }
         self.calm.wake();
+    }
+
+    /// Takes it off its springs where its surfaces can follow it no further; true if they cannot.
+    pub(crate) fn give_up(&mut self, surfaces: &mut [Placed<'_>]) -> bool {
+        let gives_up = self.beyond.is_some() && !self.calm.rests;
+        if gives_up {
+            self.wear(surfaces, |contact, _, surfaces| contact.let_go(surfaces));
+            self.calm.rests = true;
+        }
+        gives_up
     }
 
     /// True while the body is where its springs left it.
@@ -226,13 +249,17 @@ impl Wearer {
         self.lowered(surfaces, |contact, body, surfaces| contact.meet(body, surfaces, end, dt))
     }
 
-    /// Lets the surfaces follow a step of `dt` [s] that they can.
+    /// Lets the surfaces follow a step of `dt` [s] that they can, for as long as the body's middle
+    /// is above them.
     pub(crate) fn follow(
         &mut self,
         surfaces: &mut [Placed<'_>],
         dt: f64,
     ) -> Result<(), PhysicsError> {
-        self.wear(surfaces, |contact, body, surfaces| contact.follow(body, surfaces))?;
+        match self.wear(surfaces, |contact, body, surfaces| contact.follow(body, surfaces)) {
+            Err(error @ PhysicsError::Engulfed { .. }) => self.beyond = Some(error),
+            followed => followed?,
+        }
         self.left = self.body.state;
         self.impulse += self.grip.force * dt;
         if self.contact.in_contact() {

@@ -30,7 +30,8 @@ pub enum WearError {
         /// The handle given.
         body: RigidBodyHandle,
     },
-    /// A contact left the reach of the model; Rapier kept the body's contact for that step.
+    /// A contact left the reach of the model; Rapier kept the body's contact for that step, or the
+    /// body was stopped in its crater.
     #[error("body {body:?} on wear surface {surface}: {source}")]
     Physics {
         /// The body.

@@ -59,7 +59,7 @@ pub enum WearEvent {
         /// Why.
         reason: Refusal,
     },
-    /// A contact left the reach of the model; the body was left to Rapier.
+    /// A contact left the reach of the model; the body was left to Rapier, or stopped in its crater.
     Failed {
         /// The body.
         body: RigidBodyHandle,

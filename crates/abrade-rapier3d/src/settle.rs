@@ -148,7 +148,7 @@ impl WearWorld {
     }
 
     fn book_share(&mut self, share: Share, reason: Option<Refusal>) {
-        let Share { body, impulse, contact_time, touches, bears, worn } = share;
+        let Share { body, impulse, contact_time, touches, bears, worn, beyond } = share;
         self.counters.lockstep += 1;
         if let Some(reason) = reason {
             *self.reasons.entry((Resolver::Lockstep, reason.name().into())).or_default() += 1;
@@ -160,6 +160,9 @@ impl WearWorld {
         tracked.hand_to(Resolver::Lockstep, reason, &mut self.events);
         let booking = Booking { impulse, contact_time, touches };
         tracked.book(&booking, &worn, &mut self.events);
+        if let (Some(error), Some(&(surface, _))) = (beyond, worn.first()) {
+            self.fail(body, surface, error);
+        }
     }
 
     /// QuasiStatic: presses the nodes under the body by what it bore.

@@ -24,7 +24,7 @@ impl WearWorld {
     ///
     /// # Errors
     /// A contact left the reach of the model. The step was taken all the same, with that body
-    /// left to Rapier, so that an embedder may go on.
+    /// left to Rapier, or stopped in its crater, so that an embedder may go on.
     pub fn step(
         &mut self,
         world: &mut PhysicsWorld,
@@ -133,7 +133,8 @@ impl WearWorld {
     /// in hand bore. The view must be of the same world as before.
     ///
     /// # Errors
-    /// A contact left the reach of the model in this step; its body was left to Rapier.
+    /// A contact left the reach of the model in this step; its body was left to Rapier, or stopped
+    /// in its crater.
     pub fn end_step(&mut self, world: WorldView<'_>) -> Result<StepReport, WearError> {
         self.end_step_observed(world, &mut ())
     }

@@ -64,6 +64,8 @@ pub(crate) struct Share {
     pub bears: f64,
     /// Volume displaced on each surface [m3].
     pub worn: Vec<(SurfaceId, f64)>,
+    /// Why its surfaces could follow it no further, if they could not.
+    pub beyond: Option<PhysicsError>,
 }
 
 /// The surfaces of an island, in the order of their names.
@@ -170,6 +172,7 @@ impl WearWorld {
                 touches: wearer.contact().in_contact(),
                 bears: bears(&wearer),
                 worn: held.surfaces.iter().copied().zip(wearer.worn().iter().copied()).collect(),
+                beyond: wearer.beyond().cloned(),
             });
             let tracked = Tracked::slot(&mut self.bodies, held.body);
             tracked.wearer = Some((held.surfaces.clone(), wearer));

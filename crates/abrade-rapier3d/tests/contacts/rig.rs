@@ -148,6 +148,15 @@ impl Rig {
         self.wear[self.plate].wear_volume() * 1e9
     }
 
+    /// Energy of the bodies [J]: kinetic, and of their height over the world's origin.
+    pub fn energy(&self) -> f64 {
+        let of = |rb: &RigidBody| {
+            let height = scalar::vector(rb.center_of_mass()).z;
+            scalar::wide(rb.kinetic_energy()) + scalar::wide(rb.mass()) * GRAVITY * height
+        };
+        self.world.bodies.iter().map(|(_, rb)| of(rb)).sum()
+    }
+
     pub fn counters(&self) -> &Counters {
         self.wear.counters()
     }

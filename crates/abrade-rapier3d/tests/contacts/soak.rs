@@ -120,21 +120,11 @@ fn join(rig: &mut Rig, dice: &mut Dice, [a, b]: [RigidBodyHandle; 2]) {
     rig.world.insert_impulse_joint(a, b, joint);
 }
 
-/// Energy of the bodies [J]: kinetic, and of their height.
-fn energy(rig: &Rig, bodies: &[RigidBodyHandle]) -> f64 {
-    let of = |handle: &RigidBodyHandle| {
-        let rb = &rig.world.bodies[*handle];
-        let height = scalar::vector(rb.center_of_mass()).z;
-        scalar::wide(rb.kinetic_energy()) + scalar::wide(rb.mass()) * GRAVITY * height
-    };
-    bodies.iter().map(of).sum()
-}
-
 /// What went wrong in a scene, if anything did.
 fn run(seed: u64, seconds: f64) -> Result<[u64; 5], String> {
     let mut dice = Dice(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
     let (mut rig, bodies) = scene(&mut dice);
-    let start = energy(&rig, &bodies);
+    let start = rig.energy();
     let mut outside = 0;
     for step in 0..(seconds / STEP) as u64 {
         // A crater deeper than its body is outside the model: said, and the world goes on.
@@ -156,7 +146,7 @@ fn run(seed: u64, seconds: f64) -> Result<[u64; 5], String> {
                 return Err(format!("seed {seed}, step {step}: {body:?} is at {at:?}, {v:?}"));
             }
         }
-        let now = energy(&rig, &bodies);
+        let now = rig.energy();
         if now > 1.05 * start + 0.5 {
             return Err(format!("seed {seed}, step {step}: energy {start} J became {now} J"));
         }
