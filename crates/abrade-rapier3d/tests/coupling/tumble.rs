@@ -105,7 +105,7 @@ impl Tumbler {
         self.wear.step(&mut self.world, &(), &()).expect("a step inside the model");
     }
 
-    /// Steps until the cube is away from the floor; returns what happened.
+    /// Steps until the cube is away from the floor, or renewed; returns what happened.
     fn strike(&mut self) -> Vec<WearEvent> {
         let mut events = Vec::new();
         let mut away = 0;
@@ -114,7 +114,7 @@ impl Tumbler {
             events.extend_from_slice(self.wear.events());
             let ended = events.iter().any(|event| matches!(event, WearEvent::Ended { .. }));
             away += usize::from(ended);
-            if away > 2 {
+            if away > 2 || events.contains(&WearEvent::Renewed { surface: self.id }) {
                 return events;
             }
         }
@@ -165,11 +165,12 @@ fn a_cube_wears_round_and_weighs_what_is_left_of_it() {
         last = mesh.volume();
         let (inertia, centre) = mesh.mass_properties(DENSITY);
         let (mass, com, tensor) = tumbler.weighed();
-        let rounding = 64.0 * scalar::ROUNDING;
-        assert!((mass / inertia.mass - 1.0).abs() < rounding + 1e-5, "throw {number}: {mass}");
+        // Rapier's roundings, and those of sums over the facets.
+        let rounding = 64.0 * scalar::ROUNDING + 1e-12;
+        assert!((mass / inertia.mass - 1.0).abs() < 10.0 * rounding, "throw {number}: {mass}");
         assert!((com - centre).norm() < rounding * EDGE, "throw {number}: {com} {centre}");
         let miss = (tensor - inertia.tensor).norm() / inertia.tensor.norm();
-        assert!(miss < rounding + 1e-5, "throw {number}: {miss:e}");
+        assert!(miss < 10.0 * rounding, "throw {number}: {miss:e}");
     }
     let round = sphericity(&mesh(&tumbler.wear[tumbler.id]));
     println!(
