@@ -163,7 +163,8 @@ fn what_has_not_worn_stays_as_it_is_to_the_bit() {
     assert_eq!((surface.renewals(), surface.nodes()), (1, once.nodes()));
 }
 
-/// Fails for depths that are forgotten, or counted from the last renewal alone.
+/// Fails for depths that are forgotten, or counted from the last renewal alone, and for nodes that
+/// are shown elsewhere than they are.
 #[test]
 fn a_face_worn_flat_keeps_its_depth_over_renewals() {
     let cube = TriangleMesh::cuboid(Vector3::repeat(0.5), 0.1).expect("a cube");
@@ -184,8 +185,8 @@ fn a_face_worn_flat_keeps_its_depth_over_renewals() {
         (0..nodes.len()).filter(middle).filter(|&i| nodes.rest_position[i].z > 0.0).collect();
     assert!(top.len() > 20 && surface.renewals() == 5);
     for i in top {
-        let (z, depth) = (nodes.rest_position[i].z, surface.worn_depth(i));
-        assert!((z - 0.35).abs() < 5e-3 && (z + depth - 0.5).abs() < 1e-3, "{z} {depth}");
+        let (z, depth) = (nodes.position(i).z, surface.worn_depth(i));
+        assert!((z - 0.34).abs() < 5e-3 && (z + depth - 0.5).abs() < 1e-3, "{z} {depth}");
     }
     assert!(surface.worn().max_depth > 0.145, "{}", surface.worn().max_depth);
 }
