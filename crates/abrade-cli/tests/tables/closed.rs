@@ -1,6 +1,6 @@
 //! Scenes of closed surfaces against what must hold of them, row by row.
 
-use crate::run::{at, column, run_to};
+use crate::run::{at, column, run, run_to};
 
 /// Fails for nodes that sink while the bodies part, and for a force that is counted more than once,
 /// the two faults known of the original: the cube would wear on, and more energy than was lost.
@@ -35,4 +35,20 @@ fn the_shell_of_lammps_wears_on_approach_only_and_by_what_is_lost() {
         let both = momentum(&sphere, ball) + momentum(&cube, 2500.0 * 8e-6);
         assert!((both / (-50.0 * ball) - 1.0).abs() < 1e-9, "{flow}: {both}");
     }
+}
+
+/// Fails for a roll that does not turn, or whose turning the contact does not see: a roller that
+/// rolls on it neither slips nor grinds, one that turns against it does both.
+#[test]
+fn a_roller_grinds_what_turns_against_it() {
+    let [against, along] = ["3000 rpm", "-6000 rpm"].map(|spin| {
+        let spin = format!("bodies.roller.motion.spin=(0, 0, \"{spin}\")");
+        run("closed/ground_cylinders.ron", &[spin, "run.stop.limit=15 ms".to_owned()])
+    });
+    let worn = |summary| at(summary, "surfaces.roll.wear_volume_m3");
+    let friction = |summary| at(summary, "energy.friction_J");
+    println!("{:e} {:e} m3", worn(&against), worn(&along));
+    assert!(friction(&along) < 0.02 * friction(&against), "{}", friction(&along));
+    assert!(worn(&along) < 0.25 * worn(&against), "{:e}", worn(&along));
+    assert_eq!(at(&against, "surfaces.roll.motion.velocity_m_s.0"), 0.0);
 }
