@@ -90,6 +90,7 @@ impl StandIn {
             }
             Geometry::Cylinder { .. }
             | Geometry::Tube { .. }
+            | Geometry::Bend { .. }
             | Geometry::HeightField { .. }
             | Geometry::Mesh { .. } => Self::Facets,
         }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use abrade::{Mended, MeshError, ParameterError, TriangleMesh};
+use abrade::{Bend, Mended, MeshError, ParameterError, TriangleMesh};
 use nalgebra::Vector3;
 use thiserror::Error;
 
@@ -50,6 +50,9 @@ pub(crate) fn closed(
         }
         Geometry::Tube { inner, outer, length, pitch } => {
             TriangleMesh::tube(inner, outer, length, pitch)
+        }
+        Geometry::Bend { inner, outer, radius, angle, straight, pitch } => {
+            TriangleMesh::bend(&Bend { inner, outer, radius, angle, straight }, pitch)
         }
         Geometry::Capsule { radius, length, pitch } => TriangleMesh::capsule(radius, length, pitch),
         Geometry::Cuboid { half_extents, pitch } => {

@@ -78,7 +78,7 @@ pub use layout::HexStrip;
 pub use leaf::Changes;
 pub use ledger::Ledger;
 pub use material::Material;
-pub use mesh::{Mended, MeshError, TriangleMesh};
+pub use mesh::{Bend, Mended, MeshError, TriangleMesh};
 pub use nodes::Nodes;
 pub use press::{Hold, Pressed};
 pub use renewal::{RenewError, Renewal};

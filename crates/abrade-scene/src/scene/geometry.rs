@@ -78,6 +78,35 @@ pub enum Geometry {
         #[schemars(with = "Quantity")]
         pitch: f64,
     },
+    /// A pipe that turns a corner. Its axis comes along +z to the origin of its frame, turns towards
+    /// +x, and goes on straight.
+    Bend {
+        /// Radius of the bore [m].
+        #[serde(deserialize_with = "quantity::length")]
+        #[schemars(with = "Quantity")]
+        inner: f64,
+        /// Radius of the outside [m].
+        #[serde(deserialize_with = "quantity::length")]
+        #[schemars(with = "Quantity")]
+        outer: f64,
+        /// Radius of the bent axis [m], above `outer`.
+        #[serde(deserialize_with = "quantity::length")]
+        #[schemars(with = "Quantity")]
+        radius: f64,
+        /// Angle by which the axis turns [rad], at most 180 degrees.
+        #[serde(deserialize_with = "quantity::angle")]
+        #[schemars(with = "Quantity")]
+        angle: f64,
+        /// Length of the straight pipe before and behind the bend [m].
+        #[serde(default, deserialize_with = "quantity::length")]
+        #[schemars(with = "Quantity")]
+        straight: f64,
+        /// Distance of neighbouring nodes on the outside of the turn [m]; they are closer on its
+        /// inside.
+        #[serde(deserialize_with = "quantity::length")]
+        #[schemars(with = "Quantity")]
+        pitch: f64,
+    },
     /// Everything within a radius of a line along z, whose middle is the origin of its frame.
     Capsule {
         /// Radius [m].

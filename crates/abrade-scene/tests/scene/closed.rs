@@ -44,6 +44,11 @@ fn every_word_makes_the_solid_it_names() {
         (r#"Sphere(radius: "10 mm", pitch: "0.5 mm")"#, 4.0 / 3.0 * pi),
         (r#"Cylinder(radius: "10 mm", length: "30 mm", pitch: "0.5 mm")"#, 3.0 * pi),
         (r#"Tube(inner: "10 mm", outer: "20 mm", length: "30 mm", pitch: "0.5 mm")"#, 9.0 * pi),
+        (
+            r#"Bend(inner: "10 mm", outer: "20 mm", radius: "40 mm", angle: "90 deg",
+                straight: "15 mm", pitch: "0.5 mm")"#,
+            3.0 * pi * (2.0 * pi + 3.0),
+        ),
         (r#"Capsule(radius: "10 mm", length: "30 mm", pitch: "0.5 mm")"#, (3.0 + 4.0 / 3.0) * pi),
         (r#"Cuboid(half_extents: ("5 mm", "10 mm", 0.02), pitch: "1 mm")"#, 8.0),
     ];

@@ -99,7 +99,7 @@ fn profile(pieces: &[Piece], pitch: f64) -> Vec<[f64; 2]> {
 
 /// Nodes evenly around the axis; one on it.
 #[derive(Debug)]
-struct Ring {
+pub(super) struct Ring {
     first: u32,
     nodes: i64,
     /// 1 if the nodes are turned by half their distance.
@@ -113,11 +113,23 @@ impl Ring {
             vertices.push(Point3::new(0.0, 0.0, z));
             return Self { first, nodes: 1, shift: 0 };
         }
-        let nodes = (TAU * r / pitch).round().max(LEAST_RING);
+        let node = |angle: f64| Point3::new(r * angle.cos(), r * angle.sin(), z);
+        Self::around(TAU * r / pitch, row, vertices, node)
+    }
+
+    /// About `nodes` nodes where `place` puts their angles around the axis; every other row is
+    /// turned by half their distance.
+    pub(super) fn around(
+        nodes: f64,
+        row: usize,
+        vertices: &mut Vec<Point3<f64>>,
+        place: impl Fn(f64) -> Point3<f64>,
+    ) -> Self {
+        let first = vertices.len() as u32;
+        let nodes = nodes.round().max(LEAST_RING);
         let shift = row % 2;
         let angle = |k: usize| TAU * (k as f64 + 0.5 * shift as f64) / nodes;
-        let node = |k: usize| Point3::new(r * angle(k).cos(), r * angle(k).sin(), z);
-        vertices.extend((0..nodes as usize).map(node));
+        vertices.extend((0..nodes as usize).map(|k| place(angle(k))));
         Self { first, nodes: nodes as i64, shift: shift as i64 }
     }
 
@@ -133,7 +145,7 @@ impl Ring {
 
 /// Triangles between two rings: from a common start on, the ring advances whose new diagonal is
 /// shorter, which is the one that spans less angle.
-fn stitch(below: &Ring, above: &Ring, triangles: &mut Vec<[u32; 3]>) {
+pub(super) fn stitch(below: &Ring, above: &Ring, triangles: &mut Vec<[u32; 3]>) {
     let (mut i, mut j) = (0, 0);
     let [last_i, last_j] = [below, above].map(|ring| if ring.nodes > 1 { ring.nodes } else { 0 });
     while i < last_i || j < last_j {

@@ -1,6 +1,7 @@
 //! Closed triangle meshes: the boundaries of solids, as a file or a constructor gives them. A
 //! [`TriangleMesh`] that exists is closed, oriented, manifold and free of self-intersections.
 
+mod bend;
 mod boxes;
 mod change;
 mod check;
@@ -18,6 +19,7 @@ mod solids;
 
 use nalgebra::{Isometry3, Point3};
 
+pub use bend::Bend;
 pub use error::MeshError;
 pub use mend::Mended;
 pub(crate) use nodes::area_vector;

@@ -80,7 +80,7 @@ pub(super) fn check_sizes<const N: usize>(
     }
 }
 
-fn check_round(field: &'static str, radius: f64, pitch: f64) -> Result<(), MeshError> {
+pub(super) fn check_round(field: &'static str, radius: f64, pitch: f64) -> Result<(), MeshError> {
     let around = (TAU * radius / pitch).round();
     if around >= LEAST_AROUND {
         return Ok(());
