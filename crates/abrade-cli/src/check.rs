@@ -25,9 +25,19 @@ fn text(checked: &Checked) -> String {
             rows.push(row("surface", format!("{name}: {}", surface_text(surface, size))));
         }
     }
-    for (name, body) in &scene.bodies {
+    let of_stream = |name: &String| checked.streamed.values().any(|names| names.contains(name));
+    for (name, body) in scene.bodies.iter().filter(|(name, _)| !of_stream(name)) {
         if let Some(solid) = checked.solids.get(name) {
             rows.push(row("body", format!("{name}: {}", body_text(body, solid))));
+        }
+    }
+    for (name, stream) in &scene.streams {
+        let first = checked.streamed.get(name).and_then(|names| names.first());
+        let first = first.and_then(|first| scene.bodies.get(first).zip(checked.solids.get(first)));
+        if let Some((body, solid)) = first {
+            let (count, every) = (stream.count, time(stream.every));
+            let each = body_text(body, solid);
+            rows.push(row("stream", format!("{name}: {count}, one every {every}, each {each}")));
         }
     }
     let run = &scene.run;

@@ -42,7 +42,8 @@ fn write_digest(
         }
         writeln!(out, "  surface {name:12} {parts}")?;
     }
-    for (name, body) in &summary.bodies {
+    let of_stream = |name: &String| checked.streamed.values().any(|names| names.contains(name));
+    for (name, body) in summary.bodies.iter().filter(|(name, _)| !of_stream(name)) {
         let line = match (body.restitution, body.rebound_angle) {
             (Some(restitution), Some(angle)) => {
                 format!("restitution {restitution:.4}, leaves at {angle:.1} deg")
@@ -54,6 +55,17 @@ fn write_digest(
             }
         };
         writeln!(out, "  body    {name:12} {line}")?;
+    }
+    for (name, names) in &checked.streamed {
+        let struck = names.iter().filter_map(|name| summary.bodies.get(name)?.restitution);
+        let struck: Vec<f64> = struck.collect();
+        let (all, count) = (names.len(), struck.len());
+        let mean = struck.iter().sum::<f64>() / count as f64;
+        let line = match count {
+            0 => format!("{all} bodies, none of which has struck"),
+            _ => format!("{all} bodies, {count} have struck, mean restitution {mean:.4}"),
+        };
+        writeln!(out, "  stream  {name:12} {line}")?;
     }
     if let Some(energy) = &summary.energy {
         writeln!(

@@ -7,6 +7,7 @@ mod closed;
 mod motion;
 mod placement;
 mod run;
+mod stream;
 mod surface;
 
 use std::collections::BTreeMap;
@@ -23,8 +24,10 @@ use crate::spans::{Node, ScenePath};
 /// A scene without a known fault, and the solids of its bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checked {
-    /// The scene.
+    /// The scene, with the bodies of its streams among the others.
     pub scene: Scene,
+    /// Names of the bodies of each stream, in the order in which they come.
+    pub streamed: BTreeMap<String, Vec<String>>,
     /// Folder in which the files that it names lie.
     pub folder: PathBuf,
     /// Geometry and inertia of each body.
@@ -37,7 +40,7 @@ pub struct Checked {
 
 /// Checks `scene`, whose text is `patched` and whose tree is `tree`.
 pub(crate) fn check(
-    scene: Scene,
+    mut scene: Scene,
     folder: PathBuf,
     patched: &mut Patched,
     tree: &Node,
@@ -48,13 +51,16 @@ pub(crate) fn check(
     checker.check_materials();
     let mut notes = Vec::new();
     let meshes = checker.check_surfaces(&folder, &mut notes);
-    let solids = checker.check_bodies(&folder, &meshes, &mut notes);
+    let mut solids = checker.check_bodies(&folder, &meshes, &mut notes);
+    let streamed = checker.check_streams(&folder, &meshes, &mut notes);
     checker.check_run();
     let problems = checker.problems;
-    match problems.is_empty() {
-        true => Ok(Checked { scene, folder, solids, meshes, notes }),
-        false => Err(problems),
+    if !problems.is_empty() {
+        return Err(problems);
     }
+    solids.extend(streamed.solids);
+    scene.bodies.extend(streamed.bodies);
+    Ok(Checked { scene, streamed: streamed.names, folder, solids, meshes, notes })
 }
 
 /// Collects problems and finds their places.

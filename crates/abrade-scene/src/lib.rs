@@ -26,6 +26,7 @@ mod set;
 mod size;
 mod solid;
 mod spans;
+mod stream;
 
 pub use build::{BuildError, Built, BuiltSurface, StandIn};
 pub use carrier::BuiltCarrier;

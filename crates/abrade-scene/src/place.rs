@@ -94,7 +94,7 @@ pub(crate) fn local_state(
 }
 
 /// Velocity and spin at the start.
-fn velocity(motion: &Motion) -> (Vector3<f64>, Vector3<f64>) {
+pub(crate) fn velocity(motion: &Motion) -> (Vector3<f64>, Vector3<f64>) {
     match *motion {
         Motion::Impact { speed, angle, azimuth, spin } => {
             let along = speed * angle.cos();

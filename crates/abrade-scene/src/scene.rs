@@ -9,6 +9,7 @@ mod geometry;
 mod motion;
 mod run;
 mod shape;
+mod stream;
 mod surface;
 mod vectors;
 
@@ -22,6 +23,7 @@ pub use geometry::Geometry;
 pub use motion::{Motion, Solution};
 pub use run::{MeshFormat, Moment, Output, Resolve, Run, Stop};
 pub use shape::{ClumpInertia, SceneShape};
+pub use stream::Stream;
 pub use surface::{SceneSurface, SurfaceMotion};
 
 use abrade::Material;
@@ -48,7 +50,7 @@ pub struct Scene {
     pub surfaces: BTreeMap<String, SceneSurface>,
     /// Bodies, by name.
     pub bodies: BTreeMap<String, SceneBody>,
-    /// Streams of many bodies, by name; not available yet, so it must be empty.
+    /// Streams of many bodies, by name.
     #[serde(default)]
     pub streams: BTreeMap<String, Stream>,
     /// When to stop and how closely to compute.
@@ -57,14 +59,4 @@ pub struct Scene {
     /// What is written beside the summary.
     #[serde(default)]
     pub outputs: Vec<Output>,
-}
-
-/// A stream of many bodies: its content is not read yet.
-#[derive(Clone, Debug, PartialEq, JsonSchema)]
-pub struct Stream {}
-
-impl<'de> Deserialize<'de> for Stream {
-    fn deserialize<D: serde::Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
-        serde::de::IgnoredAny::deserialize(d).map(|_| Self {})
-    }
 }

@@ -3,6 +3,7 @@
 mod bad_motions;
 mod bad_sets;
 mod bad_solids;
+mod bad_streams;
 mod bad_values;
 mod bad_words;
 mod commands;

@@ -22,22 +22,37 @@ impl Checker<'_> {
         let mut solids = BTreeMap::new();
         for (name, body) in &self.scene.bodies {
             let path = ScenePath::of(["bodies", name]);
-            self.check_motion(&path, body);
-            self.check_law_for(&path, body);
-            let placed = self.check_place(&path, body);
-            match self.solid(&path, body, folder) {
-                Ok((solid, note)) => {
-                    notes.extend(note.map(|note| format!("body `{name}`: {note}")));
-                    if placed {
-                        self.check_outside(&path, name, body, &solid, meshes);
-                    }
-                    solids.insert(name.clone(), solid);
-                }
-                Err(Some(trouble)) => self.refuse_shape(&path, trouble),
-                Err(None) => {}
-            }
+            let solid = self.check_body(&path, name, body, folder, meshes, notes);
+            solids.extend(solid.map(|solid| (name.clone(), solid)));
         }
         solids
+    }
+
+    /// Checks the body that is written at `path`.
+    pub(super) fn check_body(
+        &mut self,
+        path: &ScenePath,
+        name: &str,
+        body: &SceneBody,
+        folder: &Path,
+        meshes: &BTreeMap<String, TriangleMesh>,
+        notes: &mut Vec<String>,
+    ) -> Option<Solid> {
+        self.check_motion(path, body);
+        self.check_law_for(path, body);
+        let placed = self.check_place(path, body);
+        match self.solid(path, body, folder) {
+            Ok((solid, note)) => {
+                notes.extend(note.map(|note| format!("body `{name}`: {note}")));
+                if placed {
+                    self.check_outside(path, name, body, &solid, meshes);
+                }
+                return Some(solid);
+            }
+            Err(Some(trouble)) => self.refuse_shape(path, trouble),
+            Err(None) => {}
+        }
+        None
     }
 
     /// The body's solid; `Err(None)` if its mass is already refused.

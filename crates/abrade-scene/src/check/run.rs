@@ -1,4 +1,4 @@
-//! Checks of the run, the outputs and the streams.
+//! Checks of the run and the outputs.
 
 use abrade::ParameterError;
 
@@ -20,9 +20,6 @@ impl Checker<'_> {
         );
         for (i, output) in self.scene.outputs.iter().enumerate() {
             self.check_output(&ScenePath::of(["outputs".to_owned(), i.to_string()]), output);
-        }
-        for name in self.scene.streams.keys() {
-            self.not_available(&ScenePath::of(["streams", name]), "streams");
         }
     }
 
@@ -51,7 +48,9 @@ impl Checker<'_> {
     fn check_rebounds(&mut self, path: &ScenePath) {
         let scene = self.scene;
         let moves = scene.surfaces.values().any(|surface| surface.motion != SurfaceMotion::Fixed);
-        if moves && scene.bodies.values().all(|body| body.motion == Motion::Fixed) {
+        let still = scene.streams.is_empty()
+            && scene.bodies.values().all(|body| body.motion == Motion::Fixed);
+        if moves && still {
             let message = "the run would be over at once: no body can leave a surface".into();
             self.refuse(path, message, "expected `Time(limit: ..)`");
         }

@@ -30,6 +30,8 @@ pub(crate) struct Bodies {
 /// One body.
 pub(crate) struct Track {
     pub name: String,
+    /// One of a stream: a picture has no room for its name.
+    pub is_streamed: bool,
     pub inertia: Inertia,
     pub start: State,
     /// Distance of its farthest point from its centre of mass [m].
@@ -95,6 +97,7 @@ impl Bodies {
             let aim = aim.filter(|&i| solids[i].is_none());
             Track {
                 name: name.clone(),
+                is_streamed: checked.streamed.values().any(|names| names.contains(name)),
                 inertia: body.inertia,
                 start: body.state,
                 reach: body.shape.bounding_radius(),

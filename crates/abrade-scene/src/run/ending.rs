@@ -65,6 +65,7 @@ impl Ending<'_> {
         let (title, tracks) = (self.title, &self.bodies.tracks);
         let marks: Vec<_> = tracks
             .iter()
+            .filter(|track| !track.is_streamed)
             .filter_map(|track| {
                 let (_, place) = track.landings.iter().find(|(on, _)| *on == surface)?;
                 Some(Mark { label: &track.name, position_local: *place })

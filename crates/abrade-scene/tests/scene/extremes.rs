@@ -88,6 +88,12 @@ fn solid() -> impl Strategy<Value = String> {
         made(["radius", "length", "pitch", ""]).prop_map(|fields| format!("Cylinder({fields})")),
         made(["inner", "outer", "length", "pitch"]).prop_map(|fields| format!("Tube({fields})")),
         made(["radius", "length", "pitch", ""]).prop_map(|fields| format!("Capsule({fields})")),
+        prop::array::uniform6(size()).prop_map(|[inner, outer, radius, angle, straight, pitch]| {
+            format!(
+                "Bend(inner: {inner}, outer: {outer}, radius: {radius}, angle: {angle}, \
+                 straight: {straight}, pitch: {pitch})"
+            )
+        }),
         prop::array::uniform4(size()).prop_map(|[x, y, z, pitch]| {
             format!("Cuboid(half_extents: ({x}, {y}, {z}), pitch: {pitch})")
         }),
@@ -98,6 +104,15 @@ proptest! {
     #[test]
     fn any_sizes_of_a_solid(solid in solid()) {
         load(SCENE, &[format!("surfaces.plate.geometry={solid}")]);
+    }
+
+    #[test]
+    fn any_stream(count in 0u32..9, [every, x, y, z, spread] in prop::array::uniform5(size())) {
+        let motion = format!("Free(velocity: ({x}, {y}, {z}))");
+        load(SCENE, &[format!(
+            "streams={{\"s\": (shape: Ball(radius: 1e-3), density: 1.0, count: {count}, every: {every}, \
+             position: OnSurface(surface: \"plate\"), motion: {motion}, spread: {spread})}}"
+        )]);
     }
 
     #[test]
