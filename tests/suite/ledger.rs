@@ -1,6 +1,6 @@
 //! The energy theorem: with `NormalPressure` and no friction, H W is the kinetic energy lost.
 
-use abrade::{Ball, ElasticLaw, HexStrip, Inertia, Piece, Polyhedron, Shape};
+use abrade::{Ball, ElasticLaw, HexStrip, Inertia, Piece, Polyhedron, Shape, Surface};
 use nalgebra::{Matrix3, Point3, UnitQuaternion, Vector3};
 
 use crate::theory::{Shot, hull, rigid};
@@ -85,4 +85,50 @@ fn rigid_bodies_pay_the_volume_exactly() {
 #[test]
 fn bodies_on_springs_pay_the_volume() {
     worst_balance(ElasticLaw::Foundation { stiffness: Some(1e3) }, [0.03, 0.02, 0.015], 1e-3);
+}
+
+/// Width of the stripes of a plate with two hardnesses, and the hardness of every other one over
+/// that of the rest.
+const STRIPE: f64 = 0.07;
+const HARDER: f32 = 2.7;
+
+/// Hits stripes of two hardnesses without leaving overhangs, whose breaking is unpaid: largest
+/// |sum of H_i a_i d_i - dE| / E0, and the number of such shots.
+fn worst_on_stripes(elastic: ElasticLaw) -> (f64, usize) {
+    let (mut worst, mut count) = (0.0f64, 0);
+    for (name, shot) in shots(elastic, [0.03, 0.02, 0.015]) {
+        let mut surface = Surface::hex_strip(shot.strip, shot.laws()).expect("a plate");
+        let stripe = |p: &Point3<f64>| (p.x / STRIPE).floor().rem_euclid(2.0) as usize;
+        let factors = surface.nodes().rest_position.iter().map(|p| [1.0, HARDER][stripe(p)]);
+        surface.set_hardness_factors(factors.collect()).expect("factors");
+        let end = shot.land_on(surface, [0.003, 0.001]);
+        if end.surface.worn().chip > 0.0 {
+            continue;
+        }
+        let nodes = end.surface.nodes();
+        let paid = |i: usize| end.surface.hardness(i) * nodes.rest_area[i] * nodes.depth[i];
+        let by_stripe = [0, 1].map(|kind| {
+            let own = (0..nodes.len()).filter(|i| stripe(&nodes.rest_position[*i]) == kind);
+            own.map(paid).sum::<f64>()
+        });
+        let stored = end.ledger.elastic + end.ledger.history;
+        let lost = end.energy[0] - end.energy[1] - stored;
+        let miss = (by_stripe[0] + by_stripe[1] - lost).abs() / end.energy[0];
+        println!("{name}: miss {miss:.1e}, stripes {by_stripe:.3?} of {:.3}", end.energy[0]);
+        // A shot on one stripe alone would show nothing.
+        if by_stripe.iter().all(|paid| *paid > 0.02 * end.energy[0]) {
+            (worst, count) = (worst.max(miss), count + 1);
+        }
+    }
+    (worst, count)
+}
+
+/// Fails for a volume that is paid at another hardness than its node's.
+#[test]
+fn a_plate_with_two_hardnesses_is_paid_node_by_node() {
+    let (worst, count) = worst_on_stripes(ElasticLaw::Rigid);
+    assert!(worst <= 1e-9 && count > 20, "{worst:e} in {count} shots");
+    let springs = ElasticLaw::Foundation { stiffness: Some(1e3) };
+    let (worst, count) = worst_on_stripes(springs);
+    assert!(worst <= 1e-3 && count > 20, "{worst:e} in {count} shots");
 }

@@ -68,7 +68,11 @@ impl Shot {
 
     /// Lands with the centre of mass over `at`.
     pub fn land(&self, at: [f64; 2]) -> End {
-        let mut surface = Surface::hex_strip(self.strip, self.laws()).expect("a plate");
+        self.land_on(Surface::hex_strip(self.strip, self.laws()).expect("a plate"), at)
+    }
+
+    /// The same on a `surface` that was made of its strip.
+    pub fn land_on(&self, mut surface: Surface, at: [f64; 2]) -> End {
         let height = 1e-9 - self.shape.lowest(&self.rotation, &Vector3::z());
         let angle = self.angle.to_radians();
         let mut body = Body {

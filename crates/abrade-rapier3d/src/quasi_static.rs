@@ -3,7 +3,7 @@
 //!
 //! Rapier's penetration never enters: the body's height is the one at which the load balances.
 
-use abrade::{Advance, Body, Hold, PhysicsError, Pressed, State, SurfaceLaws};
+use abrade::{Advance, Body, Hold, PhysicsError, Pressed, State, Surface};
 use nalgebra::{Isometry3, Vector3};
 use rapier::dynamics::RigidBodyHandle;
 
@@ -52,10 +52,10 @@ pub(crate) struct Outcome {
 
 /// True when no node can flow under `load` [N]: none bears more than all of it, and the least
 /// that moves a node is its rest area times the smaller hardness.
-pub(crate) fn holds(laws: &SurfaceLaws, area: f64, load: f64) -> bool {
-    let material = &laws.material;
-    let hardness = material.hardness * material.shear_ratio.min(1.0);
-    load * 1f64.hypot(material.friction) < hardness * area
+pub(crate) fn holds(surface: &Surface, load: f64) -> bool {
+    let material = &surface.laws().material;
+    let hardness = surface.least_hardness() * material.shear_ratio.min(1.0);
+    load * 1f64.hypot(material.friction) < hardness * surface.nodes().rest_area[0]
 }
 
 impl Pressing {
@@ -133,7 +133,7 @@ impl Pressing {
 #[cfg(feature = "serde-serialize")]
 impl Pressing {
     /// True when it is pressed against these surfaces by a load that can be.
-    pub fn is_sound<'a>(&self, surfaces: impl Iterator<Item = &'a abrade::Surface>) -> bool {
+    pub fn is_sound<'a>(&self, surfaces: impl Iterator<Item = &'a Surface>) -> bool {
         self.load.is_finite() && self.load >= 0.0 && self.pressed.is_made_for(surfaces)
     }
 }

@@ -39,10 +39,7 @@ impl Scene<'_> {
         }
         // What moves along and ploughs is braked by it, which Rapier's contact would not do.
         let load = pull * scalar::wide(rb.mass());
-        let firm = |id: &SurfaceId| {
-            let surface = &self.surfaces[id.0].surface;
-            holds(surface.laws(), surface.nodes().rest_area[0], load)
-        };
+        let firm = |id: &SurfaceId| holds(&self.surfaces[id.0].surface, load);
         let limit = CREEP * rest_speed;
         let stays = |id: &SurfaceId| {
             self.frame(*id).is_some_and(|frame| along(&course, &frame, tracked.radius) < limit)

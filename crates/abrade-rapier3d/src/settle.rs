@@ -257,8 +257,7 @@ impl WearWorld {
         }
         let worn = &self.surfaces[surface.0];
         let known = tracked.pressing.iter().position(|p| p.surface == surface);
-        let area = worn.surface.nodes().rest_area[0];
-        let is_firm = quasi_static::holds(worn.surface.laws(), area, load);
+        let is_firm = quasi_static::holds(&worn.surface, load);
         if load == 0.0 || known.is_none() && is_firm {
             return Ok(held_up);
         }

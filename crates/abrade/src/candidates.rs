@@ -16,10 +16,26 @@ use crate::sweep::Swept;
 #[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Slot {
     pub id: u32,
+    /// Hardness over that of the material [-].
+    pub factor: f32,
     /// Present position in the surface's frame [m].
     pub x: Point3<f64>,
     pub n: Vector3<f64>,
     pub area: f64,
+}
+
+impl Slot {
+    /// Node `i`, which is at `x`.
+    fn of(surface: &Surface, i: usize, x: Point3<f64>) -> Self {
+        let nodes = surface.nodes();
+        Self {
+            id: i as u32,
+            factor: surface.hardness_factor(i),
+            x,
+            n: nodes.normal[i],
+            area: nodes.rest_area[i],
+        }
+    }
 }
 
 /// The cache: every node whose distance from the body was below a margin when it was made.
@@ -58,13 +74,11 @@ impl Candidates {
         self.slots.clear();
         let reach = margin + inflation;
         let [low, high] = reach_box(surface.grid(), shape, state, reach);
-        let nodes = surface.nodes();
         self.read(&low, &high);
         surface.grid().visit(&low, &high, |i| {
             let x = surface.position(i);
             if clearance(shape, state, &x) < reach {
-                let slot = Slot { id: i as u32, x, n: nodes.normal[i], area: nodes.rest_area[i] };
-                self.slots.push(slot);
+                self.slots.push(Slot::of(surface, i, x));
             }
         });
         self.slots.sort_unstable_by_key(|slot| slot.id);
@@ -79,12 +93,10 @@ impl Candidates {
         near: impl Fn(&Point3<f64>) -> bool,
     ) {
         self.slots.clear();
-        let nodes = surface.nodes();
-        for &id in facets.iter().flatten() {
-            let i = id as usize;
+        for i in facets.iter().flatten().map(|&id| id as usize) {
             let x = surface.position(i);
             if near(&x) {
-                self.slots.push(Slot { id, x, n: nodes.normal[i], area: nodes.rest_area[i] });
+                self.slots.push(Slot::of(surface, i, x));
             }
         }
         self.slots.sort_unstable_by_key(|slot| slot.id);
@@ -115,7 +127,7 @@ impl Candidates {
             let x = surface.position(i);
             let n = nodes.normal[i];
             if swept.meets(&x, &n, margin, surface.reach(i as u32) - surface.depth(i)) {
-                self.slots.push(Slot { id: i as u32, x, n, area: nodes.rest_area[i] });
+                self.slots.push(Slot::of(surface, i, x));
             }
         });
         self.made = Some((*state, margin));
@@ -165,8 +177,10 @@ impl Candidates {
     pub(crate) fn check(&self) -> Result<(), Fault> {
         let sorted = self.slots.is_sorted_by(|a, b| a.id < b.id);
         require(sorted, "candidates are not in their order")?;
-        let numbers =
-            |slot: &Slot| finite(slot.x.coords.iter().chain(slot.n.iter())) && positive(slot.area);
+        let numbers = |slot: &Slot| {
+            let sizes = positive(slot.area) && positive(f64::from(slot.factor));
+            finite(slot.x.coords.iter().chain(slot.n.iter())) && sizes
+        };
         let made = self.made.as_ref().is_none_or(|(_, margin)| not_negative(*margin));
         require(made && self.slots.iter().all(numbers), "candidates are out of range")
     }

@@ -28,7 +28,9 @@ pub(crate) struct ColumnLaw {
     price: Price,
     /// k_w [Pa/m]; infinite without springs.
     stiffness: f64,
-    /// g_y = H / k_w [m]; zero without springs.
+    /// g_y = H / k_w [m]; zero without springs. Of a node it is that times its factor.
+    material_overlap: f64,
+    /// g_y of the softest node [m].
     pub yield_overlap: f64,
 }
 
@@ -86,8 +88,15 @@ impl ColumnLaw {
         Self {
             price: Price { hardness, shear_hardness, friction },
             stiffness,
-            yield_overlap: hardness / stiffness,
+            material_overlap: hardness / stiffness,
+            yield_overlap: surface.least_hardness() / stiffness,
         }
+    }
+
+    /// Overlap at which a node yields [m].
+    #[inline]
+    fn yield_overlap_of(&self, slot: &Slot) -> f64 {
+        self.material_overlap * f64::from(slot.factor)
     }
 
     /// Energy of a spring under a column of `area` [m2] [J].
@@ -112,7 +121,8 @@ impl ColumnLaw {
             return (column.squeeze > 0.0).then(|| Cut { lost: true, ..Cut::default() });
         };
         // With springs the body sweeps as if lifted by the yield overlap.
-        let (low, high) = (span.low + self.yield_overlap, span.high + self.yield_overlap);
+        let yield_overlap = self.yield_overlap_of(slot);
+        let (low, high) = (span.low + yield_overlap, span.high + yield_overlap);
         if span.low >= -column.open_depth() && column.squeeze == 0.0 {
             return None;
         }
@@ -125,14 +135,14 @@ impl ColumnLaw {
             }
         }
         let flows = flow.length > 0.0;
-        if self.yield_overlap > 0.0 {
+        if yield_overlap > 0.0 {
             let after = match flows {
                 // The deep end lies in the material of other columns.
                 _ if low < -step.own => 0.0,
-                true => self.yield_overlap,
+                true => yield_overlap,
                 false => {
                     let over = column.level_below(low) - span.low;
-                    over.clamp(0.0, self.yield_overlap)
+                    over.clamp(0.0, yield_overlap)
                 }
             };
             self.squeeze(step, slot, &span, [column.squeeze, after], flows, toll);
@@ -162,14 +172,14 @@ impl ColumnLaw {
         let length = (high - low) / samples as f64;
         for i in 0..samples {
             let z = low + (i as f64 + 0.5) * length;
-            let touched = slot.x + slot.n * (z - self.yield_overlap);
+            let touched = slot.x + slot.n * (z - self.yield_overlap_of(slot));
             let arm = touched - step.middle;
             let entry = step
                 .swept
                 .entry(&touched, step.reach)
                 .unwrap_or_else(|| blocked_entry(step, span, &arm));
             let (price, lateral) = self.price.of(&entry, &slot.n, step, &arm);
-            let energy = price * slot.area * length;
+            let energy = price * f64::from(slot.factor) * slot.area * length;
             toll.wear += energy;
             self.press(step, &entry.normal, &arm, energy / entry.displacement, &mut toll.flow);
             flow.length += length;
@@ -256,7 +266,7 @@ impl ColumnLaw {
             force: 0.5 * self.stiffness * slot.area * (before + after) / cosine,
             // Work of the force: what the spring took.
             advance: (after - before) * cosine,
-            cap: self.price.hardness * slot.area / cosine,
+            cap: self.price.hardness * f64::from(slot.factor) * slot.area / cosine,
             stored: squeezes.map(|squeeze| self.stored(slot.area, squeeze)),
             stiffness: self.stiffness * slot.area / (cosine * cosine),
             shear: Shear::default(),
@@ -280,7 +290,8 @@ impl ColumnLaw {
     pub(crate) fn check(&self) -> Result<(), Fault> {
         let Price { hardness, shear_hardness, friction } = self.price;
         let priced = positive(hardness) && not_negative(shear_hardness.unwrap_or(0.0));
-        let sprung = self.stiffness > 0.0 && not_negative(self.yield_overlap);
+        let overlaps = [self.material_overlap, self.yield_overlap];
+        let sprung = self.stiffness > 0.0 && overlaps.into_iter().all(not_negative);
         require(priced && not_negative(friction) && sprung, "the laws of columns are out of range")
     }
 }

@@ -78,7 +78,7 @@ impl Columns {
         self.damping_ratio
     }
 
-    /// g_y [m]; zero without springs.
+    /// g_y of the softest node [m]; zero without springs.
     pub(crate) fn yield_overlap(&self) -> f64 {
         self.law.yield_overlap
     }

@@ -48,6 +48,22 @@ pub enum SurfaceError {
         /// Largest number allowed.
         limit: f64,
     },
+    /// Not one factor on the hardness per node.
+    #[error("{factors} factors on the hardness of {nodes} nodes")]
+    HardnessCount {
+        /// Factors given.
+        factors: usize,
+        /// Nodes of the surface.
+        nodes: usize,
+    },
+    /// A factor on the hardness is out of range.
+    #[error("the factor {factor} on the hardness of node {node} is not finite and above zero")]
+    HardnessFactor {
+        /// The node.
+        node: usize,
+        /// Its factor [-].
+        factor: f32,
+    },
     /// A parameter that the chosen law needs is missing.
     #[error("{law} needs `{field}`, which the material does not give")]
     Missing {

@@ -8,6 +8,9 @@ use crate::query::Query;
 
 /// A flow law.
 pub(crate) trait Flow {
+    /// The law of a node whose hardness is `factor` times that of the material.
+    fn times(&self, factor: f64) -> Self;
+
     /// The drop of a node in one step and the node after it.
     fn flow<E: Elastic, Q: Query>(
         &self,
@@ -89,6 +92,12 @@ impl<L: LateralGeometry> CapozzaHanley<L> {
 
 impl<L: LateralGeometry> Flow for CapozzaHanley<L> {
     #[inline(always)]
+    fn times(&self, factor: f64) -> Self {
+        let (hardness, shear_hardness) = (self.hardness * factor, self.shear_hardness * factor);
+        Self { hardness, shear_hardness, lateral: self.lateral }
+    }
+
+    #[inline(always)]
     fn flow<E: Elastic, Q: Query>(
         &self,
         node: &NodeStep<'_, E, Q>,
@@ -149,6 +158,11 @@ pub(crate) struct NormalPressure {
 }
 
 impl Flow for NormalPressure {
+    #[inline(always)]
+    fn times(&self, factor: f64) -> Self {
+        Self { hardness: self.hardness * factor }
+    }
+
     #[inline(always)]
     fn flow<E: Elastic, Q: Query>(
         &self,

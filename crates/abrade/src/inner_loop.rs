@@ -111,7 +111,8 @@ impl<E: Elastic, F: Flow, Q: Query> InnerLoop<'_, E, F, Q> {
                 node.heading = self.motion.heading(&arm, &slot.n);
             }
             (node.x, node.area) = (slot.x, slot.area * self.share);
-            match resolve(&self.flow, &mut node, old, self.motion) {
+            let flow = self.flow.times(f64::from(slot.factor));
+            match resolve(&flow, &mut node, old, self.motion) {
                 Some(answer) => {
                     sum.take(&answer, &node);
                     if LEDGER {

@@ -26,6 +26,7 @@ mod facets;
 mod flight;
 mod flow;
 mod grid;
+mod hardness;
 mod hull;
 mod inner_loop;
 mod integrate;

@@ -87,6 +87,11 @@ impl Mutual {
                 });
             }
         }
+        if [surface, &*skin.surface].iter().any(|surface| surface.hardness_factors().is_some()) {
+            return Err(PhysicsError::Unsupported {
+                what: "two surfaces that meet have one hardness each, not one per node",
+            });
+        }
         let out = |x: &Point3<f64>| clearance(shape, &State::at(Point3::origin()), x);
         let corners = skin.surface.nodes().rest_position.iter();
         let outermost = corners.map(|x| out(&(skin.pose * x))).fold(f64::NEG_INFINITY, f64::max);

@@ -7,6 +7,7 @@ use nalgebra::{Point3, Vector3};
 
 use crate::error::{ParameterError, SurfaceError};
 use crate::grid::Grid;
+use crate::hardness::HardnessMap;
 use crate::laws::{ElasticLaw, FlowLaw, Lateral, Removal};
 use crate::layout::{HexStrip, Layout, strip_positions};
 use crate::leaf::{Changes, Leaf};
@@ -78,6 +79,8 @@ pub struct Surface {
     /// None for a surface that nobody watches.
     pub(crate) sunk: Option<Box<Sunk>>,
     pub(crate) laws: SurfaceLaws,
+    /// None where the material's hardness holds everywhere.
+    pub(crate) hardness_map: Option<Arc<HardnessMap>>,
     /// What was worn until the last [`Surface::settle`], and since.
     pub(crate) worn: Worn,
     pub(crate) gain: Worn,
@@ -204,6 +207,7 @@ impl Surface {
             deepest: 0.0,
             sunk: None,
             laws,
+            hardness_map: None,
             worn: Worn::default(),
             gain: Worn::default(),
             level: Some(Vector3::z()),
@@ -248,6 +252,7 @@ impl Surface {
             deepest: 0.0,
             sunk: None,
             laws,
+            hardness_map: None,
             worn: Worn::default(),
             gain: Worn::default(),
             level: None,
@@ -265,6 +270,7 @@ impl Surface {
             deepest: below.deepest,
             sunk: None,
             laws: below.laws.clone(),
+            hardness_map: below.hardness_map.clone(),
             worn: below.worn(),
             gain: Worn::default(),
             level: below.level,

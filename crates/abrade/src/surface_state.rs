@@ -29,6 +29,7 @@ pub(crate) struct SurfaceState {
     depth: Vec<f64>,
     past: Option<Past>,
     sunk: Option<Vec<u32>>,
+    hardness: Option<Vec<f32>>,
 }
 
 impl From<Surface> for SurfaceState {
@@ -45,6 +46,7 @@ impl From<Surface> for SurfaceState {
         Self {
             layout,
             pitch: surface.pitch(),
+            hardness: surface.hardness_factors().map(<[f32]>::to_vec),
             laws: surface.laws,
             worn: surface.worn,
             gain: surface.gain,
@@ -59,7 +61,7 @@ impl TryFrom<SurfaceState> for Surface {
     type Error = Fault;
 
     fn try_from(state: SurfaceState) -> Result<Self, Fault> {
-        let SurfaceState { layout, pitch, laws, worn, gain, depth, past, sunk } = state;
+        let SurfaceState { layout, pitch, laws, worn, gain, depth, past, sunk, hardness } = state;
         require(positive(pitch), "the pitch of a surface is out of range")?;
         require(laws.check().is_empty(), "the laws of a surface are out of range")?;
         let whole = |w: &Worn| finite(&[w.normal, w.lateral, w.chip, w.removed]);
@@ -82,6 +84,10 @@ impl TryFrom<SurfaceState> for Surface {
         if let Some(nodes) = sunk {
             let fault = Fault("the nodes of a surface that have sunk are out of range");
             surface.sunk = Some(Box::new(Sunk::of(nodes, depth.len()).ok_or(fault)?));
+        }
+        if let Some(factors) = hardness {
+            let fault = Fault("the hardness of a node is out of range");
+            surface.set_hardness_factors(factors).map_err(|_| fault)?;
         }
         (surface.worn, surface.gain) = (worn, gain);
         surface.deepest = depth.iter().copied().fold(0.0, f64::max);

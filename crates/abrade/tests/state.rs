@@ -122,6 +122,9 @@ fn onto_a_renewed_block(step_limit: u64) -> Run<Encounter> {
     let laws = plate(SPRINGS, 1.0).laws().clone();
     let mut run = landing(Shape::ball(0.5).expect("a ball"), SPRINGS, 1.0, MANY);
     run.surface = Surface::mesh(&block.moved(&down), laws).expect("a surface");
+    // Hard and soft nodes in turn.
+    let factors = (0..run.surface.nodes().len()).map(|i| [1.0, 1.5][i % 2]).collect();
+    run.surface.set_hardness_factors(factors).expect("factors");
     let contact = |run: &Run<Encounter>, step_limit: u64| {
         let settings = EncounterSettings { ledger: true, step_limit, ..Default::default() };
         Encounter::new(&run.body, [&run.surface], settings).expect("an encounter")

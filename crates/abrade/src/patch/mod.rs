@@ -335,12 +335,12 @@ fn inflation(elastic: &ElasticLaw) -> f64 {
 
 fn yield_overlap(coefficients: impl Iterator<Item = f64>, surface: &Surface) -> f64 {
     let SurfaceLaws { material, elastic, .. } = &surface.laws;
-    let area = surface.least_area();
+    let (area, hardness) = (surface.least_area(), surface.least_hardness());
     let of = |coefficient| match elastic {
         ElasticLaw::HertzNodes { .. } => {
-            HertzNodes::new(material.poisson).yield_overlap(coefficient, material.hardness, area)
+            HertzNodes::new(material.poisson).yield_overlap(coefficient, hardness, area)
         }
-        _ => Foundation::new(material.poisson).yield_overlap(coefficient, material.hardness, area),
+        _ => Foundation::new(material.poisson).yield_overlap(coefficient, hardness, area),
     };
     coefficients.map(of).fold(f64::INFINITY, f64::min)
 }
