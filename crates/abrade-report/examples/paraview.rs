@@ -42,7 +42,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for frame in 0..3 {
         let time = 1e-6 * f64::from(frame);
         let (nodes, triangles) = surface(200, 1e-3 * f64::from(frame));
-        vtp::write_surface(&surfaces.next_path(), &nodes, &pose, &triangles)?;
+        vtp::write_surface(&surfaces.next_path(), &nodes, None, &pose, &triangles)?;
         surfaces.push(time);
         let state = |x: f64| State { spin: Vector3::y(), ..State::at(Point3::new(x, 0.0, 5e-3)) };
         let placed = [(&ball, &state(0.01)), (&grit, &state(0.03))];
@@ -51,8 +51,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         bodies.push(time);
     }
     let (nodes, _) = surface(50, 1e-3);
-    vtp::write_surface(&folder.join("points.vtp"), &nodes, &Isometry3::identity(), &[])?;
-    vtp::write_surface(&folder.join("empty.vtp"), &Nodes::default(), &pose, &[])?;
+    vtp::write_surface(&folder.join("points.vtp"), &nodes, None, &Isometry3::identity(), &[])?;
+    vtp::write_surface(&folder.join("empty.vtp"), &Nodes::default(), None, &pose, &[])?;
     surfaces.write()?;
     Ok(bodies.write()?)
 }

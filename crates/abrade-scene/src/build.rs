@@ -142,8 +142,11 @@ impl Checked {
                 Surface::hex_strip(strip, laws)
             }
         };
-        let surface =
-            surface.map_err(|error| BuildError::Surface { name: name.to_owned(), error })?;
+        let refused = |error| BuildError::Surface { name: name.to_owned(), error };
+        let mut surface = surface.map_err(refused)?;
+        if let Some(factors) = self.hardness.get(name) {
+            surface.set_hardness_factors(factors.clone()).map_err(refused)?;
+        }
         Ok(BuiltSurface { surface, pose, carrier, stand_in })
     }
 

@@ -4,6 +4,7 @@
 mod body;
 mod carrier;
 mod closed;
+mod hardness;
 mod motion;
 mod placement;
 mod run;
@@ -34,6 +35,8 @@ pub struct Checked {
     pub solids: BTreeMap<String, Solid>,
     /// Meshes of the closed surfaces, by name; their vertices are the nodes.
     pub meshes: BTreeMap<String, TriangleMesh>,
+    /// Hardness of every node over that of the material, of surfaces where it differs [-].
+    pub hardness: BTreeMap<String, Vec<f32>>,
     /// What the user should know beside the result.
     pub notes: Vec<String>,
 }
@@ -51,6 +54,7 @@ pub(crate) fn check(
     checker.check_materials();
     let mut notes = Vec::new();
     let meshes = checker.check_surfaces(&folder, &mut notes);
+    let hardness = checker.check_hardnesses(&folder, &meshes);
     let mut solids = checker.check_bodies(&folder, &meshes, &mut notes);
     let streamed = checker.check_streams(&folder, &meshes, &mut notes);
     checker.check_run();
@@ -60,7 +64,7 @@ pub(crate) fn check(
     }
     solids.extend(streamed.solids);
     scene.bodies.extend(streamed.bodies);
-    Ok(Checked { scene, streamed: streamed.names, folder, solids, meshes, notes })
+    Ok(Checked { scene, streamed: streamed.names, folder, solids, meshes, hardness, notes })
 }
 
 /// Collects problems and finds their places.

@@ -6,8 +6,8 @@ use abrade::{Bend, Mended, MeshError, ParameterError, TriangleMesh};
 use nalgebra::Vector3;
 use thiserror::Error;
 
-use crate::heights::{self, HeightsTrouble, Line};
 use crate::mesh_file::{self, Facets, FileTrouble};
+use crate::number_rows::{self, Line, RowsTrouble};
 use crate::scene::Geometry;
 
 /// The mesh of a solid, and what was mended in its file.
@@ -25,7 +25,7 @@ pub(crate) enum ClosedTrouble {
     File(#[from] FileTrouble),
     /// The file of heights.
     #[error(transparent)]
-    Heights(#[from] HeightsTrouble),
+    Heights(#[from] RowsTrouble),
     /// A row of heights that does not go with the others, or with the base.
     #[error("{error}")]
     Row { error: Box<MeshError>, line: Line },
@@ -83,7 +83,8 @@ fn ground(
     positive("spacing", along)?;
     positive("spacing", across)?;
     positive("scale", scale)?;
-    let heights = heights::read(folder, file, scale)?;
+    let mut heights = number_rows::read(folder, "heights", file)?;
+    heights.rows.iter_mut().flatten().for_each(|height| *height *= scale);
     let mesh = TriangleMesh::height_field(&heights.rows, along, across, base);
     let mesh = mesh.map_err(|error| {
         let row = match error {

@@ -6,6 +6,7 @@
 
 mod body;
 mod geometry;
+mod hardness;
 mod motion;
 mod run;
 mod shape;
@@ -20,6 +21,7 @@ use serde::Deserialize;
 
 pub use body::{Placement, Rotation, SceneBody};
 pub use geometry::Geometry;
+pub use hardness::{HardnessMap, Region, RegionBox};
 pub use motion::{Motion, Solution};
 pub use run::{MeshFormat, Moment, Output, Resolve, Run, Stop};
 pub use shape::{ClumpInertia, SceneShape};

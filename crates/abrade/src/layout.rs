@@ -9,6 +9,7 @@ use crate::grid::Grid;
 use crate::medial::reaches;
 use crate::nodes::Nodes;
 use crate::solid::Solid;
+use crate::surface::NODE_LIMIT;
 
 /// A flat strip of nodes in close-packed rows along y.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,6 +56,19 @@ impl HexStrip {
     /// Numbers of columns (along x) and rows (along y).
     pub fn columns_rows(&self) -> [f64; 2] {
         [(self.length / (self.pitch * 0.75f64.sqrt())).round(), (self.width / self.pitch).round()]
+    }
+
+    /// Undeformed positions of the nodes in the strip's frame, in the order of their numbers [m];
+    /// none for a strip without nodes, or with more than [`NODE_LIMIT`](crate::NODE_LIMIT).
+    pub fn positions(&self) -> Vec<Point3<f64>> {
+        let [columns, rows] = self.columns_rows();
+        let has_nodes = columns >= 1.0 && rows >= 1.0 && columns * rows <= NODE_LIMIT;
+        let whole = has_nodes && self.check().is_empty();
+        if whole {
+            strip_positions([columns as usize, rows as usize], self.pitch)
+        } else {
+            Vec::new()
+        }
     }
 
     /// Every value outside its range.

@@ -16,22 +16,30 @@ use crate::mesh::Mesh;
 use poly::{Array, Place, PolyData};
 
 /// Writes a surface at `pose`: the nodes where they are now (world), with the point arrays
-/// `depth_m`, `rest_area_m2` and `normal` (world). Without `triangles` the nodes are drawn as
-/// points.
+/// `depth_m`, `rest_area_m2` and `normal` (world), and `hardness_Pa` where `hardness` [Pa] is given
+/// node by node. Without `triangles` the nodes are drawn as points.
 ///
 /// # Errors
 /// Columns of different length, a triangle that names no node, or the file system refuses.
 pub fn write_surface(
     path: &Path,
     nodes: &Nodes,
+    hardness: Option<&[f64]>,
     pose: &Isometry3<f64>,
     triangles: &[[u32; 3]],
 ) -> Result<(), ReportError> {
     check_columns(nodes)?;
+    if let Some(hardness) = hardness.filter(|hardness| hardness.len() != nodes.len()) {
+        let (column, found, depths) = ("hardness", hardness.len(), nodes.len());
+        return Err(ReportError::Columns { column, found, depths });
+    }
     let all = 0..nodes.len();
     let mut data = PolyData::new(nodes.len());
     data.add(Place::Scalars, Array::f64("depth_m", nodes.depth.iter().copied()));
     data.add(Place::PointData, Array::f64("rest_area_m2", nodes.rest_area.iter().copied()));
+    if let Some(hardness) = hardness {
+        data.add(Place::PointData, Array::f64("hardness_Pa", hardness.iter().copied()));
+    }
     data.add(Place::Normals, Array::vectors("normal", nodes.normal.iter().map(|n| pose * n)));
     data.points(all.map(|i| pose * nodes.position(i)));
     data.faces(triangles)?;

@@ -55,7 +55,7 @@ fn integers(file: &[u8], element: &str, name: &str) -> Vec<i64> {
 fn written(nodes: &Nodes, pose: &Isometry3<f64>, triangles: &[[u32; 3]]) -> Vec<u8> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("surface_0000.vtp");
-    write_surface(&path, nodes, pose, triangles).expect("writable");
+    write_surface(&path, nodes, None, pose, triangles).expect("writable");
     fs::read(&path).expect("there")
 }
 
@@ -81,6 +81,21 @@ fn a_surface_reads_back_where_it_lies() {
     assert_eq!(integers(&file, "Polys", "connectivity"), [0, 1, 2, 2, 1, 3]);
     assert_eq!(integers(&file, "Polys", "offsets"), [3, 6]);
     assert!(integers(&file, "Verts", "offsets").is_empty());
+}
+
+/// A program that wrote a column that nobody gave, or one of another length, would fail here.
+#[test]
+fn hardness_is_a_column_where_it_is_given() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("surface_0000.vtp");
+    let (nodes, pose) = (square(), Isometry3::identity());
+    write_surface(&path, &nodes, Some(&[1e9, 2e9, 3e9, 4e9]), &pose, &[]).expect("writable");
+    let file = fs::read(&path).expect("there");
+    assert_eq!(floats(&file, "PointData", "hardness_Pa"), [1e9, 2e9, 3e9, 4e9]);
+    let without = written(&nodes, &pose, &[]);
+    assert!(!String::from_utf8_lossy(&without).contains("hardness_Pa"));
+    let short = write_surface(&path, &nodes, Some(&[1e9]), &pose, &[]);
+    assert!(matches!(short, Err(ReportError::Columns { column: "hardness", found: 1, .. })));
 }
 
 /// A program that wrote no cells would show an empty window.
@@ -114,7 +129,7 @@ fn arrays_longer_than_a_block_are_whole() {
 fn a_triangle_without_its_node_is_refused() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("surface_0000.vtp");
-    let error = write_surface(&path, &square(), &Isometry3::identity(), &[[0, 1, 4]]);
+    let error = write_surface(&path, &square(), None, &Isometry3::identity(), &[[0, 1, 4]]);
     let expected = ReportError::Triangle { triangle: 0, point: 4, points: 4 };
     assert_eq!(error.expect_err("four nodes").to_string(), expected.to_string());
     assert!(!path.exists());

@@ -4,7 +4,7 @@ use abrade::{MeshError, NODE_LIMIT, ParameterError};
 
 use super::Checker;
 use crate::closed::ClosedTrouble;
-use crate::heights::{HeightsTrouble, Line};
+use crate::number_rows::{Line, RowsTrouble};
 use crate::problem::{Mark, Problem, Source};
 use crate::spans::ScenePath;
 
@@ -15,11 +15,14 @@ impl Checker<'_> {
         let file = geometry.join("file");
         let message = trouble.to_string();
         match trouble {
-            ClosedTrouble::File(_) | ClosedTrouble::Heights(HeightsTrouble::Unreadable { .. }) => {
+            ClosedTrouble::File(_) | ClosedTrouble::Heights(RowsTrouble::Unreadable { .. }) => {
                 self.refuse(&file, message, "");
             }
-            ClosedTrouble::Heights(HeightsTrouble::NotANumber { line, .. })
-            | ClosedTrouble::Row { line, .. } => self.refuse_row(&file, line, message),
+            ClosedTrouble::Heights(RowsTrouble::NotANumber { line, .. })
+            | ClosedTrouble::Row { line, .. } => {
+                let title = format!("the heights `{}` have a bad line", line.file);
+                self.refuse_row(&file, title, line, message);
+            }
             ClosedTrouble::NoSolid { error, .. } => self.refuse(&file, message, error.to_string()),
             ClosedTrouble::Mesh(error) => self.refuse_mesh(&geometry, name, error),
         }
@@ -59,12 +62,17 @@ impl Checker<'_> {
         }
     }
 
-    /// A fault in a file of heights is shown in that file.
-    fn refuse_row(&mut self, file: &ScenePath, line: Line, fault: String) {
+    /// A fault in a file of rows is shown in that file.
+    pub(super) fn refuse_row(
+        &mut self,
+        file: &ScenePath,
+        message: String,
+        line: Line,
+        fault: String,
+    ) {
         let named = self.mark(file, "named here");
         let Line { file: name, number: first_line, text } = line;
         let range = 0..text.len();
-        let message = format!("the heights `{name}` have a bad line");
         let source = self.add_source(Source { name, text, first_line });
         let marks = vec![Mark { source, range, label: fault }, named];
         self.problems.push(Problem { message, marks, help: None });

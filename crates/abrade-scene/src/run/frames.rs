@@ -47,7 +47,13 @@ impl Frames {
         for (index, series) in self.surfaces.iter_mut().enumerate() {
             let surface = engine.surface(index);
             let (path, frame) = (series.next_path(), &bodies.frames[index]);
-            vtp::write_surface(&path, &surface.nodes_since_made(), frame, &surface.triangles())?;
+            let all = 0..surface.nodes().len();
+            let is_mapped = surface.hardness_factors().is_some();
+            let hardness: Option<Vec<f64>> =
+                is_mapped.then(|| all.map(|i| surface.hardness(i)).collect());
+            let facets = surface.triangles();
+            let nodes = surface.nodes_since_made();
+            vtp::write_surface(&path, &nodes, hardness.as_deref(), frame, &facets)?;
             series.push(time);
             series.write()?;
         }

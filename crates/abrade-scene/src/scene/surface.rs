@@ -5,7 +5,7 @@ use abrade::{ElasticLaw, FlowLaw, Lateral, Removal};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{Geometry, Rotation, vectors};
+use super::{Geometry, HardnessMap, Region, Rotation, vectors};
 
 /// A surface that wears.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -21,6 +21,12 @@ pub struct SceneSurface {
     /// Elastic part of the contact (default `Foundation()`).
     #[serde(default = "default_elastic")]
     pub elastic: ElasticLaw,
+    /// Hardness by place (default: that of the material everywhere).
+    #[serde(default)]
+    pub hardness_map: Option<HardnessMap>,
+    /// Parts of another hardness; a later one overrides those before it, and all of them the map.
+    #[serde(default)]
+    pub regions: Vec<Region>,
     /// How the surface moves (default `Fixed`).
     #[serde(default)]
     pub motion: SurfaceMotion,

@@ -187,3 +187,29 @@ fn a_restitution_is_one_that_springs_can_have() {
     let refusal = refusal(&[&with("0.5"), "surfaces.plate.elastic=Rigid"]);
     assert!(refusal.contains("`Rigid` has none"), "{refusal}");
 }
+
+/// Fails for regions that do not override each other in their order, for a box without its faces,
+/// and for a hardness that is not the one asked for.
+#[test]
+fn regions_give_nodes_a_hardness_of_their_own() {
+    let regions = |list: &str| checked(&[&format!("surfaces.plate.regions=[{list}]")]);
+    let left = "(hardness: \"13.2 GPa\", box: (from: (-1, -1, 0), to: (0, 1, 0)))";
+    let low = "(hardness: 3.3e9, box: (from: (-1, -1, 0), to: (1, \"-1 mm\", 0)))";
+    let built = regions(&format!("{left}, {low}")).build().expect("a scene");
+    let plate = &built.surfaces["plate"].surface;
+    for (i, at) in plate.nodes().rest_position.iter().enumerate() {
+        let expected = match (at.y <= -1e-3, at.x <= 0.0) {
+            (true, _) => 3.3e9,
+            (false, true) => 13.2e9,
+            (false, false) => 6.6e9,
+        };
+        assert_eq!(plate.hardness(i), expected, "{at}");
+    }
+    assert_eq!(plate.least_hardness(), 3.3e9);
+    assert!(
+        checked(&[]).build().expect("a scene").surfaces["plate"]
+            .surface
+            .hardness_factors()
+            .is_none()
+    );
+}
