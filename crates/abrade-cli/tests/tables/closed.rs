@@ -89,16 +89,16 @@ fn grit_meets_the_outer_wall_of_an_elbow_where_straight_flight_does() {
     run_to(folder.path(), "closed/elbow.ron", &sets.map(str::to_owned));
     let angles = deep_angles(folder.path(), 0.25e-3);
     let middle = angles.iter().map(|[angle, _]| angle).sum::<f64>() / angles.len() as f64;
-    let theta = (30.0f64 / 36.5).acos().to_degrees();
+    let theta = (30.0f64 / 36.0).acos().to_degrees();
     println!("{middle} deg, straight flight {theta} deg");
-    // It goes on along the wall as it sinks in, by less than the radius of the crater: 0.5 mm of 38.
+    // It goes on along the wall as it sinks in, by less than the radius of the crater: 0.4 mm of 38.
     assert!(middle - theta > -0.2 && middle - theta < 0.8, "{middle} {theta}");
 
     let stream = tempfile::tempdir().expect("a folder");
     let sets = ["streams.grit.count=12", "outputs=[Mesh(format: Obj)]"];
     run_to(stream.path(), "closed/elbow.ron", &sets.map(str::to_owned));
     let angles = deep_angles(stream.path(), 0.25e-3);
-    // From 5 mm beyond the axis to 5 mm within it: 16 to 47 degrees.
-    let within = |[angle, y]: &[f64; 2]| (15.5..48.0).contains(angle) && *y < 5.8e-3;
+    // From 5 mm beyond the axis to 5 mm within it: 13.5 to 46 degrees.
+    let within = |[angle, y]: &[f64; 2]| (13.0..47.0).contains(angle) && *y < 6.8e-3;
     assert!(angles.len() > 10 && angles.iter().all(within), "{angles:?}");
 }
