@@ -59,6 +59,8 @@ pub struct ResolverCounts {
     pub quasi_static: u64,
     /// With all that the body touches, in tiny steps of the engine.
     pub lockstep: u64,
+    /// Blows of contacts that the engine kept, as collisions of two.
+    pub collision: u64,
 }
 
 /// What happened to a surface.

@@ -90,6 +90,7 @@ pub(crate) struct Counts {
     pub micro: u64,
     pub quasi_static: u64,
     pub lockstep: u64,
+    pub collision: u64,
     /// Body steps by "resolver: why it was not Micro".
     pub reasons: BTreeMap<String, u64>,
     pub steps: u64,

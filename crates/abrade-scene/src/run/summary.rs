@@ -65,6 +65,7 @@ pub(crate) fn summary(run: &Run<'_>) -> Summary {
             micro: counts.micro,
             quasi_static: counts.quasi_static,
             lockstep: counts.lockstep,
+            collision: counts.collision,
         },
         resolver_reasons: counts.reasons.clone(),
         wall: run.wall,

@@ -263,6 +263,7 @@ impl Engine for World {
             micro: counters.micro,
             quasi_static: counters.quasi_static,
             lockstep: counters.lockstep,
+            collision: counters.collision,
             reasons: self
                 .wear
                 .reasons()
