@@ -119,6 +119,25 @@ fn a_ground_is_made_of_the_rows_of_its_file() {
     assert!((mesh.volume() / (5e-3 * (10e-3 * 2e-3 + 10e-3 * 2.5e-3)) - 1.0).abs() < 1e-9);
 }
 
+/// Fails for a map in another unit than the file's, one that is laid in the world's frame, and for
+/// regions that it overrides.
+#[test]
+fn a_map_gives_a_solid_its_hardness() {
+    let map = "# mm, mm, mm, Pa\n30, 0, 0, 3e9\n-30, 0, 0, 2e9\n";
+    let folder = folder("mapped", &[("weld.csv", map.as_bytes())]);
+    let block = r#"Cuboid(half_extents: (0.02, 0.01, 0.01), pitch: "2 mm")"#;
+    let sets = [
+        r#"surfaces.s.hardness_map=(file: "weld.csv", scale: 0.001)"#,
+        "surfaces.s.regions=[(hardness: 5e9, box: (from: (-1, -1, 0.01), to: (1, 1, 1)))]",
+    ];
+    let built = load(block, folder, &sets).unwrap().build().unwrap();
+    let surface = &built.surfaces["s"].surface;
+    for (i, at) in surface.nodes().rest_position.iter().enumerate() {
+        let by_map = if at.x < 0.0 { 2e9 } else { 3e9 };
+        assert_eq!(surface.hardness(i), if at.z >= 0.01 { 5e9 } else { by_map }, "{at}");
+    }
+}
+
 /// The hull of a body may come from the same files as a surface.
 #[test]
 fn the_hull_of_a_mesh_file_has_its_volume() {
