@@ -10,8 +10,8 @@ use rapier::parry::utils::Array2;
 
 use crate::scalar;
 
-/// Cells of a tile along x and along y: as many nodes either way. It shows one more of each, which
-/// the next tile shows too: poses of tiles are rounded, and there would be gaps.
+/// Cells of a tile along x and along y: as many nodes either way. It shows one more of its
+/// neighbours' on every side: poses of tiles are rounded, and there would be gaps.
 const CELLS: [usize; 2] = [32, 64];
 
 /// A strip's lattice, cut along x and y.
@@ -56,7 +56,7 @@ impl StripTiles {
         let at = [tile / along_y, tile % along_y];
         [0, 1].map(|axis| {
             let from = at[axis] * CELLS[axis];
-            from..(from + CELLS[axis] + 1).min(cells[axis])
+            from.saturating_sub(1)..(from + CELLS[axis] + 1).min(cells[axis])
         })
     }
 
@@ -67,7 +67,7 @@ impl StripTiles {
         let [x, y] = [[column, column], [place.saturating_sub(1), place + 1]];
         let tiles = |axis: usize, [low, high]: [usize; 2]| {
             let before = low.saturating_sub(CELLS[axis] + 1).div_ceil(CELLS[axis]);
-            before..(high / CELLS[axis]).min(counts[axis] - 1) + 1
+            before..((high + 1) / CELLS[axis]).min(counts[axis] - 1) + 1
         };
         let along_y = tiles(1, y);
         tiles(0, x).flat_map(move |x| along_y.clone().map(move |y| x * counts[1] + y))
