@@ -56,7 +56,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("worn: liner {:.0} mm3, balls {:.0} mm3", 1e9 * worn.liner, 1e9 * worn.balls);
     println!("liner struck most at {:.0} degrees, the fastest ball {fastest:.2} m/s", toe.place());
     let ledger = wear.ledger();
-    println!("worn {:.3} J, numerical {:.1e} J", ledger.wear, ledger.numerical());
+    // The drum holds the charge's weight at the length of its radius at most.
+    let mass: f32 = balls.iter().map(|(ball, _)| world.bodies[*ball].mass()).sum();
+    let angle = std::f64::consts::TAU * f64::from(turns) + 2.0;
+    let given = f64::from(mass) * 9.81 * drum::RADIUS * angle;
+    println!("worn {:.2} J of at most {given:.0} J given", ledger.wear);
+    println!("numerical {:.1e} J", ledger.numerical());
+    assert!(ledger.wear < given && ledger.numerical().abs() < 1e-3 * ledger.wear);
     // From the top of the drum to its bottom, on top of the speed of its wall.
     let limit = (4.0 * 9.81 * drum::RADIUS as f32).sqrt() + SPEED * 6.3 * drum::RADIUS as f32;
     assert!(fastest < limit, "no ball gets faster than its fall makes it: {fastest} m/s");

@@ -12,8 +12,9 @@ use crate::{derive, scalar, shadow};
 
 /// The contact of a pair in a step.
 pub(crate) struct Blow {
-    /// Impulse on the second collider along the normal [N s].
+    /// Impulse on the second collider along the normal [N s], and the energy of a blow [J].
     pub impulse: f64,
+    pub energy: f64,
     /// Unit normal from the first collider to the second, in the world.
     pub normal: Vector3<f64>,
     /// Mass of the pair for impulses along the normal where it acted [kg].
@@ -32,14 +33,20 @@ pub(crate) struct Blow {
 }
 
 impl Blow {
-    /// Speed of approach that makes up for the impulse [m/s].
+    /// Speed of a body of the pair's mass that has the energy of the blow [m/s].
     pub fn speed(&self) -> f64 {
-        self.impulse / (self.mass * (1.0 + self.restitution))
+        (2.0 * self.energy / self.mass).sqrt()
     }
 
-    /// Impulse that goes with a `speed` of approach [N s].
-    pub fn impulse_of(&self, speed: f64) -> f64 {
-        speed * self.mass * (1.0 + self.restitution)
+    /// Energy of a body of the pair's mass that has an impulse in a collision [J].
+    pub fn energy_of(&self, impulse: f64) -> f64 {
+        0.5 * (impulse / (1.0 + self.restitution)).powi(2) / self.mass
+    }
+
+    /// Energy that an impulse of the contact took from its bodies in the step, before it gave any back
+    /// [J].
+    pub fn taken(&self, impulse: f64) -> f64 {
+        0.5 * impulse * (self.approach + self.closing.max(0.0)) / (1.0 + self.restitution)
     }
 
     /// The contact of `pair` in the last step; None for one without rigid contacts or whose colliders
@@ -60,6 +67,7 @@ impl Blow {
         let (came, left) = (apart(0), apart(1));
         Some(Self {
             impulse,
+            energy: 0.0,
             normal,
             mass: 1.0 / ease,
             restitution: restitution(first, second),

@@ -1,11 +1,12 @@
 //! Collisions in a crowd: bodies on closed or moving surfaces that other bodies are among, which
 //! Micro cannot carry on their own, wear by the impulses that Rapier's contacts gave them.
 //!
-//! A contact that bears more than what lies on it is taken for a collision of two: of a body of
-//! the mass that the pair has at the place of the contact, at the speed that makes up for its
-//! impulse ([`blow`]). The core runs it until the two part; the nodes keep what it did to them,
-//! and the motion stays Rapier's. Rapier brakes a body over more than one step: a blow is what its
-//! contact has borne until the two no longer approach.
+//! A contact that bears more than what lies on it has a blow. It is run by the core as a collision of
+//! two: of a body of the mass that the pair has at the place of the contact, and of the energy that
+//! its impulse stands for, but no more than what the contacts of the step took from the bodies that
+//! hang together there. The nodes keep what it did to them, and the motion stays Rapier's. Rapier
+//! brakes a body over more than one step: a blow is what its contact has borne until the two no longer
+//! approach.
 
 mod blow;
 mod clusters;
@@ -32,12 +33,8 @@ use crate::{booking::Booking, scalar};
 const GROWTH: f64 = 1.5;
 /// Speeds that gravity gives in a step below which a blow is none.
 const REST: f64 = 2.0;
-/// Largest ratio of the speed of a blow that is handed on to that of the one that came: a heavy body
-/// makes a light one twice as fast.
-const HANDED: f64 = 2.0;
-/// Relative difference of an impulse from that of the two on their own that Rapier's push out of an
-/// overlap makes, and the rest that a contact leaves to the next step.
-const DIRECT: f64 = 0.1;
+/// Steps in which Rapier has braked whatever came.
+const SPAN: u32 = 4;
 /// Share of the speed of a blow below which two bodies no longer approach.
 const STOPPED: f64 = 0.05;
 
@@ -50,11 +47,11 @@ pub(crate) type PairKey = [(u32, u32); 2];
 pub(crate) struct Bore {
     /// Impulse of what lies on it, per step [N s].
     lying: f64,
-    /// Impulse of a blow under way [N s], and the fastest approach that gave rise to it [m/s].
+    /// Impulse of a blow under way [N s], and its share of the energy that contacts took [J].
     blow: f64,
-    speed: f64,
-    /// The fastest approach of the two themselves [m/s].
-    approach: f64,
+    energy: f64,
+    /// Steps that it has taken.
+    steps: u32,
 }
 
 /// Contacts between the steps.
@@ -64,9 +61,35 @@ pub(crate) type Bores = BTreeMap<PairKey, Bore>;
 impl Bore {
     /// True for impulses that a contact can have.
     pub fn is_sound(&self) -> bool {
-        [self.lying, self.blow, self.speed, self.approach]
-            .iter()
-            .all(|x| x.is_finite() && *x >= 0.0)
+        [self.lying, self.blow, self.energy].iter().all(|x| x.is_finite() && *x >= 0.0)
+    }
+}
+
+impl Bore {
+    /// The part of a contact's impulse that is a blow; zero for one that lies, among things that
+    /// gravity makes no faster than `rest` [m/s] in a step.
+    fn part(&self, blow: &Blow, rest: f64) -> f64 {
+        let strikes = blow.impulse > GROWTH * self.lying + blow.mass * rest;
+        if strikes { blow.impulse - self.lying } else { 0.0 }
+    }
+
+    /// Bears a contact through a step. True for a blow that is over, and faster than `rest` [m/s];
+    /// `blow` is then all of it.
+    fn bear(&mut self, blow: &mut Blow, clusters: &Clusters, rest: f64) -> bool {
+        let part = self.part(blow, rest);
+        let borne = blow.impulse;
+        self.steps += 1;
+        self.blow += part;
+        self.energy += clusters.share(blow, part);
+        (blow.impulse, blow.energy) = (self.blow, blow.energy_of(self.blow).min(self.energy));
+        if part > 0.0 && self.steps < SPAN && blow.closing > STOPPED * blow.speed() {
+            return false;
+        }
+        // What bears as much for so long lies there.
+        let lies = part == 0.0 || self.steps >= SPAN;
+        self.lying = if lies { borne } else { self.lying };
+        *self = Self { lying: self.lying, ..Self::default() };
+        blow.speed() > rest
     }
 }
 
@@ -93,52 +116,19 @@ impl WearWorld {
                 }
             }
         }
-        let clusters = Clusters::of(met.values().map(|(_, blow, _)| blow));
-        let mut bores = Bores::new();
-        for (key, (pair, blow, reason)) in met {
-            let speed = clusters.speed(&blow);
-            let mut bore = self.bores.get(&key).copied().unwrap_or_default();
-            if let Some(blow) = self.bear(&mut bore, blow, speed, world) {
+        let old = std::mem::take(&mut self.bores);
+        let bore = |key: &PairKey| old.get(key).copied().unwrap_or_default();
+        let rest = REST * scalar::vector(world.gravity).norm() * self.current.dt;
+        let part = |key: &PairKey, blow: &Blow| bore(key).part(blow, rest);
+        let contacts = met.iter().map(|(key, (_, blow, _))| (blow, part(key, blow)));
+        let clusters = Clusters::of(contacts, rest);
+        for (key, (pair, mut blow, reason)) in met {
+            let mut bore = bore(&key);
+            if bore.bear(&mut blow, &clusters, rest) {
                 self.strike(pair, &blow, reason, world);
             }
-            bores.insert(key, bore);
+            self.bores.insert(key, bore);
         }
-        self.bores = bores;
-    }
-
-    /// Books what a contact bore in the step, among bodies of which the fastest came together at
-    /// `speed` [m/s]; returns a blow that is over.
-    fn bear(
-        &self,
-        bore: &mut Bore,
-        mut blow: Blow,
-        speed: f64,
-        world: &WorldView<'_>,
-    ) -> Option<Blow> {
-        let gravity = scalar::vector(world.gravity).norm();
-        let rest = REST * gravity * self.current.dt;
-        let strikes = speed > rest && blow.impulse > GROWTH * bore.lying + blow.mass * rest;
-        if strikes {
-            bore.blow += blow.impulse - bore.lying;
-            bore.speed = bore.speed.max(speed);
-            bore.approach = bore.approach.max(blow.approach);
-        } else {
-            bore.lying = blow.impulse;
-        }
-        // A direct blow has the speed of its approach; what is handed on is no faster than twice what
-        // came.
-        let own = blow.impulse_of(bore.approach);
-        let is_direct = (bore.blow - own).abs() < DIRECT * own;
-        blow.impulse = match is_direct {
-            true => own,
-            false => bore.blow.min(blow.impulse_of(HANDED * bore.speed)),
-        };
-        let is_over = !strikes || blow.closing <= STOPPED * blow.speed();
-        if bore.blow == 0.0 || !is_over {
-            return None;
-        }
-        *bore = Bore { lying: bore.lying, ..Bore::default() };
-        Some(blow)
     }
 
     /// Runs the collision and books it.

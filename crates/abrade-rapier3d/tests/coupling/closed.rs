@@ -6,7 +6,7 @@ use crate::plugin::abrade::{
 };
 use crate::plugin::rapier::math::Vector;
 use crate::plugin::rapier::prelude::*;
-use crate::plugin::{SurfaceId, WearEvent, WearSettings, WearWorld, scalar};
+use crate::plugin::{Resolver, SurfaceId, WearEvent, WearSettings, WearWorld, scalar};
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 
 const RADIUS: f64 = 0.01;
@@ -192,8 +192,12 @@ fn a_free_sphere_is_struck_as_in_the_core() {
     scene.ball(beside, Vector3::zeros());
     scene.wear.step(&mut scene.world, &(), &()).expect("a step");
     let events = scene.wear.events();
-    let left = events.iter().filter(|event| matches!(event, WearEvent::NotResolved { .. }));
-    assert_eq!(left.count(), 1, "{events:?}");
+    let by_blow =
+        |event: &&WearEvent| matches!(event, WearEvent::Resolved { by: Resolver::Collision, .. });
+    assert_eq!(events.iter().filter(by_blow).count(), 1, "{events:?}");
+    let miss = scene.wear[scene.id].wear_volume() / wear - 1.0;
+    println!("as a collision of two: {miss:.1e}");
+    assert!(miss.abs() < 0.05, "{miss}");
 }
 
 /// Fails for a contact that loses its springs or gains energy as its surface turns from step to

@@ -51,7 +51,7 @@ impl Scene {
     fn of(surface: Surface, proxy: ColliderBuilder, top: f64) -> Self {
         let mut world = PhysicsWorld { gravity: Vector::ZERO, ..PhysicsWorld::default() };
         let proxy = world.colliders.insert(proxy);
-        let mut wear = WearWorld::new(WearSettings::default());
+        let mut wear = WearWorld::new(WearSettings { renew: false, ..WearSettings::default() });
         let at = Isometry3::translation(0.0, 0.0, if top > 0.0 { 0.0 } else { 0.01 });
         let id = wear.insert_at(surface, proxy, at, &mut world.colliders).expect("a proxy");
         Self { world, wear, id, proxy, top }
