@@ -84,6 +84,11 @@ fn write_digest(
         summary.simulated, summary.steps, summary.node_evaluations, summary.wall, summary.precision
     )?;
     let picture = checked.scene.outputs.contains(&Output::Picture);
-    let file = if picture { "surface.png and more" } else { "summary.json" };
+    let mut surfaces = summary.surfaces.keys();
+    let file = match (picture, surfaces.next(), surfaces.next()) {
+        (true, Some(first), Some(_)) => format!("surface_{first}.png and more"),
+        (true, ..) => "surface.png and more".to_owned(),
+        (false, ..) => "summary.json".to_owned(),
+    };
     writeln!(out, "  {file} in {}", folder.display())
 }
