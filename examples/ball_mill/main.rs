@@ -62,7 +62,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let given = f64::from(mass) * 9.81 * drum::RADIUS * angle;
     println!("worn {:.2} J of at most {given:.0} J given", ledger.wear);
     println!("numerical {:.1e} J", ledger.numerical());
-    assert!(ledger.wear < given && ledger.numerical().abs() < 1e-3 * ledger.wear);
+    assert!(ledger.wear < given && ledger.numerical().abs() < 5e-3 * ledger.wear);
     // From the top of the drum to its bottom, on top of the speed of its wall.
     let limit = (4.0 * 9.81 * drum::RADIUS as f32).sqrt() + SPEED * 6.3 * drum::RADIUS as f32;
     assert!(fastest < limit, "no ball gets faster than its fall makes it: {fastest} m/s");

@@ -25,7 +25,7 @@ fn text(checked: &Checked) -> String {
             rows.push(row("surface", format!("{name}: {}", surface_text(surface, size))));
         }
     }
-    let of_stream = |name: &String| checked.streamed.values().any(|names| names.contains(name));
+    let of_stream = |name: &String| checked.is_streamed(name);
     for (name, body) in scene.bodies.iter().filter(|(name, _)| !of_stream(name)) {
         if let Some(solid) = checked.solids.get(name) {
             rows.push(row("body", format!("{name}: {}", body_text(body, solid))));

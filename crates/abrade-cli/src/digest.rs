@@ -42,7 +42,7 @@ fn write_digest(
         }
         writeln!(out, "  surface {name:12} {parts}")?;
     }
-    let of_stream = |name: &String| checked.streamed.values().any(|names| names.contains(name));
+    let of_stream = |name: &String| checked.is_streamed(name);
     for (name, body) in summary.bodies.iter().filter(|(name, _)| !of_stream(name)) {
         let line = match (body.restitution, body.rebound_angle) {
             (Some(restitution), Some(angle)) => {

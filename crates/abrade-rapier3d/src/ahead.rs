@@ -98,8 +98,8 @@ impl WearWorld {
 /// What a body does if it is alone; nothing if it will not be let through, or if it fails.
 fn run(tracked: &mut Tracked, scene: &Scene<'_>) -> Option<Ahead> {
     let start = scene.start(tracked).ok()??;
-    if start.free.is_some() {
-        // Whoever comes first moves the surface of those who follow.
+    if start.free.is_some() || start.skin.is_some() {
+        // Whoever comes first moves the surface of those who follow, or wears two.
         return None;
     }
     let way = start.way(scene.world, scene.obstacles)?;

@@ -11,7 +11,7 @@ use crate::gate::{Course, Lead, Lie};
 use crate::obstacle::Search;
 use crate::path::Extent;
 use crate::start::Scene;
-use crate::surface::SurfaceId;
+use crate::surface::{SurfaceId, WornCollider};
 use crate::track::Track;
 
 /// The dynamic body that a surface is on.
@@ -45,20 +45,22 @@ impl Scene<'_> {
     /// could meet a free one that has been carried already.
     pub fn bound_by_free(
         &self,
+        own: &RigidBody,
         body: RigidBodyHandle,
         near: &[SurfaceId],
         course: &Course,
     ) -> Option<Refusal> {
-        let own = course.reach(&Isometry3::identity(), self.dt);
-        if self.carried.iter().any(|(_, extent)| extent.meets(&own)) {
+        let reach = course.reach(&Isometry3::identity(), self.dt);
+        if self.carried.iter().any(|(_, extent)| extent.meets(&reach)) {
             return Some(Refusal::SurfaceMoves);
         }
         let (lead, free) = lead(self.lies, near)?;
         let alone = near.len() == 1
-            && !self.candidates.contains(&free.body)
+            && !self.is_candidate(free.body, own)
             && !self.world.jointed(free.body)
             && self.world.bodies.get(free.body).is_some_and(|rb| {
-                rb.locked_axes().is_empty() && !self.meets(rb, body, &lead, free.body, course)
+                rb.locked_axes().is_empty()
+                    && !self.meets(rb, [body, free.body], own, &lead, course)
             });
         (!alone).then_some(Refusal::SurfaceMoves)
     }
@@ -69,17 +71,25 @@ impl Scene<'_> {
         reach(lead, radius, course, self.dt)
     }
 
+    /// True when the body of a free surface is near one itself, but for that of the body `own`.
+    fn is_candidate(&self, free: RigidBodyHandle, own: &RigidBody) -> bool {
+        let is_own = |worn: &WornCollider| own.colliders().contains(&worn.proxy);
+        self.candidates.contains(&free) && !self.surfaces.iter().any(is_own)
+    }
+
     /// True when something but `body` could meet the body `rb` of a free surface.
     fn meets(
         &self,
         rb: &RigidBody,
-        body: RigidBodyHandle,
+        [body, free]: [RigidBodyHandle; 2],
+        own: &RigidBody,
         lead: &Lead,
-        free: RigidBodyHandle,
         course: &Course,
     ) -> bool {
         let reach = self.reach_of(rb, lead, course);
-        let other = |lie: &Lie| lie.lead.and_then(|l| l.free).is_none_or(|f| f.body != free);
+        let mine = |lie: &Lie| own.colliders().contains(&self.surfaces[lie.id.0].proxy);
+        let other =
+            |lie: &Lie| !mine(lie) && lie.lead.and_then(|l| l.free).is_none_or(|f| f.body != free);
         if self.lies.iter().any(|lie| other(lie) && lie.extent.meets(&reach)) {
             return true;
         }

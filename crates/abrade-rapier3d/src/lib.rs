@@ -68,6 +68,7 @@ pub mod scalar;
 mod settings;
 mod settle;
 mod shadow;
+mod skin;
 #[cfg(feature = "serde-serialize")]
 mod snapshot;
 mod start;

@@ -1,7 +1,8 @@
 //! The Micro resolver: one body carried through a whole step by the core, on its own.
 
 use abrade::{
-    Advance, Body, Carrier, Changes, Encounter, Loads, PhysicsError, Placed, State, Surface, Until,
+    Advance, Body, Carrier, Changes, Encounter, Loads, PhysicsError, Placed, Skin, State, Surface,
+    Until,
 };
 use nalgebra::{Isometry3, Vector3};
 
@@ -31,7 +32,7 @@ pub(crate) type Volumes = Vec<(SurfaceId, f64)>;
 impl Live {
     /// A running encounter with the given surfaces.
     pub fn new(encounter: Encounter, surfaces: Vec<SurfaceId>) -> Self {
-        Self { encounter, surfaces, frame: None }
+        Self { encounter, surfaces, skin: None, frame: None }
     }
 
     /// Carries `body`, whose state is given in the frame of the first surface. Where changes are
@@ -47,25 +48,45 @@ impl Live {
         changed: &mut Changed,
     ) -> (Result<Advance, PhysicsError>, Volumes, Option<State>) {
         let seats = seats(&self.surfaces, lies, &errand.way.frame);
+        let (ids, skin) = (self.all(), self.skin.map(|(_, pose)| pose));
         let mut go = |placed: &mut [Placed<'_>]| match errand.in_parts {
             true => go_in_parts(&mut self.encounter, body, placed, errand, relay),
             false => go(&mut self.encounter, body, placed, errand, errand.dt, relay),
         };
         if changed.is_noted() {
             let leaf = |id: &SurfaceId| Surface::leaf(&surfaces[id.0].surface);
-            let mut leaves: Vec<Surface> = self.surfaces.iter().map(leaf).collect();
-            let mut placed = placed(leaves.iter_mut(), &seats);
+            let mut leaves: Vec<Surface> = ids.iter().map(leaf).collect();
+            let mut placed = dressed(leaves.iter_mut(), &seats, skin);
             let result = go(&mut placed);
             let carrier = carrier(&placed);
             let changes: Vec<_> = leaves.into_iter().map(Surface::into_changes).collect();
-            return (result, apply(&self.surfaces, &changes, surfaces, changed), carrier);
+            return (result, apply(&ids, &changes, surfaces, changed), carrier);
         }
-        let mut placed = place(surfaces, &self.surfaces, &seats);
+        let mut placed = dressed(owned(surfaces, &ids), &seats, skin);
         let result = go(&mut placed);
         let carrier = carrier(&placed);
         let worn = |id: &SurfaceId| (*id, surfaces[id.0].owned().settle().displaced());
-        (result, self.surfaces.iter().map(worn).collect(), carrier)
+        (result, ids.iter().map(worn).collect(), carrier)
     }
+
+    /// The surfaces of the encounter, and the body's own.
+    pub fn all(&self) -> Vec<SurfaceId> {
+        self.surfaces.iter().copied().chain(self.skin.map(|(id, _)| id)).collect()
+    }
+}
+
+/// The surfaces on their seats; one more than those is the body's own, whose frame is at `skin` in that
+/// of the body.
+fn dressed<'a>(
+    mut surfaces: impl Iterator<Item = &'a mut Surface>,
+    seats: &[Seat],
+    skin: Option<Isometry3<f64>>,
+) -> Vec<Placed<'a>> {
+    let mut placed = placed(surfaces.by_ref().take(seats.len()), seats);
+    if let (Some(first), Some(pose), Some(surface)) = (placed.first_mut(), skin, surfaces.next()) {
+        first.skin = Some(Skin { surface, pose });
+    }
+    placed
 }
 
 impl Errand<'_> {
@@ -194,6 +215,14 @@ pub(crate) fn place<'a>(
     ids: &[SurfaceId],
     seats: &[Seat],
 ) -> Vec<Placed<'a>> {
+    placed(owned(surfaces, ids), seats)
+}
+
+/// The surfaces `ids` themselves, in that order, to be worn.
+pub(crate) fn owned<'a>(
+    surfaces: &'a mut [WornCollider],
+    ids: &[SurfaceId],
+) -> impl Iterator<Item = &'a mut Surface> {
     let mut owned: Vec<(usize, &mut Surface)> = Vec::with_capacity(ids.len());
     for (index, worn) in surfaces.iter_mut().enumerate() {
         if let Some(order) = ids.iter().position(|id| id.0 == index) {
@@ -203,5 +232,5 @@ pub(crate) fn place<'a>(
         }
     }
     owned.sort_by_key(|(order, _)| *order);
-    placed(owned.into_iter().map(|(_, surface)| surface), seats)
+    owned.into_iter().map(|(_, surface)| surface)
 }

@@ -142,20 +142,21 @@ fn collider(tiles: &Tiles, tile: usize, surface: &Surface, pose: Pose) -> Collid
         .build()
 }
 
-/// What is written of query colliders: their handles, and the order of a mesh's facets.
+/// What is written of query colliders: their handles, the order of a mesh's facets, and how often the
+/// surface had been renewed when they were made.
 #[cfg(feature = "serde-serialize")]
-pub(crate) type ShownParts = (Vec<ColliderHandle>, Vec<u32>);
+pub(crate) type ShownParts = (Vec<ColliderHandle>, Vec<u32>, u32);
 
 #[cfg(feature = "serde-serialize")]
 impl Shown {
     pub fn parts(&self) -> ShownParts {
-        (self.colliders.clone(), self.tiles.order().to_vec())
+        (self.colliders.clone(), self.tiles.order().to_vec(), self.renewals)
     }
 
     /// The query colliders of `surface`; None when they cannot be its.
-    pub fn of_parts(surface: &Surface, (colliders, order): ShownParts) -> Option<Self> {
+    pub fn of_parts(surface: &Surface, parts: ShownParts) -> Option<Self> {
+        let (colliders, order, renewals) = parts;
         let tiles = Tiles::ordered(surface, order)?;
-        let renewals = surface.renewals();
         (tiles.count() == colliders.len()).then_some(Self { tiles, colliders, renewals })
     }
 }

@@ -86,7 +86,7 @@ impl WearWorld {
         match (self.settings.resolve, may_hold) {
             (Resolve::Auto, false) => {
                 let near = near.clone();
-                self.crowd(near, reason);
+                self.crowd(body, near, reason);
             }
             (Resolve::Micro, _) | (_, false) => self.refuse(body, surface, reason),
             _ if reason.is_final() => self.refuse(body, surface, reason),
@@ -152,7 +152,13 @@ impl WearWorld {
         let ahead = ahead.filter(|ahead| ahead.holds(&self.changed, &self.surfaces));
         let how = scene.how(ahead, &start, tracked, &errand, observer.watches())?;
         if tracked.live.is_none() {
-            let encounter = scene.encounter(&start, tracked)?;
+            let encounter = match scene.encounter(&start, tracked) {
+                // Laws that two surfaces cannot have between them.
+                Err(PhysicsError::Unsupported { .. }) if start.skin.is_some() => {
+                    return Err(Refusal::Wears.into());
+                }
+                encounter => encounter?,
+            };
             tracked.live = Some(Live::new(encounter, start.surfaces.clone()));
         }
         let (moves, free) = (start.moves, start.free);
@@ -161,6 +167,7 @@ impl WearWorld {
         let Some(live) = &mut tracked.live else { return Ok(()) };
         let (frame, course) = (start.frame, start.course);
         live.frame = moves.then_some(frame).or(live.frame);
+        live.skin = start.skin;
         let (advance, worn, track) = match how {
             How::Done(ahead) => {
                 let Ahead { end, encounter, advance, track, changes, .. } = *ahead;

@@ -19,7 +19,7 @@ use crate::world::WearWorld;
 use crate::{afloat, scalar, shadow, steer};
 
 /// Growth of the impulse of a contact from one step to the next that is no blow.
-const GROWTH: f64 = 1.5;
+pub(crate) const GROWTH: f64 = 1.5;
 
 /// Share of the height of its centre of mass that a body may sink under a load before it is lifted:
 /// a lift that follows every little sinking keeps it awake, and rocks what lies on a face.

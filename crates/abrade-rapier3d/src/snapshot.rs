@@ -218,7 +218,8 @@ impl Read {
         require(state, "a state is out of range")?;
         let borne = tracked.borne.iter().all(|(id, _)| self.have(&[*id]));
         let live = tracked.live.as_ref().is_none_or(|live| {
-            self.have(&live.surfaces) && live.frame.as_ref().is_none_or(is_frame)
+            let skin = live.skin.as_ref().is_none_or(|(_, pose)| is_frame(pose));
+            self.have(&live.all()) && skin && live.frame.as_ref().is_none_or(is_frame)
         });
         let wall = tracked
             .against

@@ -14,7 +14,7 @@ use crate::resolve::Left;
 use crate::resolver::Resolve;
 use crate::settings::WearSettings;
 use crate::surface::{SurfaceId, WornCollider};
-use crate::tracked::{Known, Tracked};
+use crate::tracked::{Known, Live, Tracked};
 use crate::view::WorldView;
 use crate::world::WearWorld;
 use crate::{afloat, free, scalar, shadow};
@@ -44,6 +44,8 @@ pub(crate) struct Start {
     pub body: RigidBodyHandle,
     /// The surfaces of its encounter; it is carried in the frame of the first.
     pub surfaces: Vec<SurfaceId>,
+    /// The surface of its own, which wears as well, and its frame in that of the body.
+    pub skin: Option<(SurfaceId, Isometry3<f64>)>,
     pub frame: Isometry3<f64>,
     bounds: Extent,
     /// Its state in that frame.
@@ -90,16 +92,14 @@ impl Scene<'_> {
     pub fn start(&self, tracked: &mut Tracked) -> Result<Option<Start>, Left> {
         let body = tracked.handle;
         let Some(rb) = self.world.bodies.get(body) else { return Ok(None) };
+        if self.carried.iter().any(|(carried, _)| *carried == body) {
+            // With the body that struck it.
+            return Ok(None);
+        }
         if let Some(refusal) = gate::bound(self.world, rb, body) {
             return Err(refusal.into());
         }
         tracked.derive(rb, self.world.colliders)?;
-        let is_own = |worn: &WornCollider| rb.colliders().contains(&worn.proxy);
-        let wears = self.surfaces.iter().any(|worn| is_own(worn) && !worn.surface.is_flat());
-        let crowds = |id: &SurfaceId| !gate::can_hold(self.lies, self.surfaces, *id);
-        if self.settings.resolve == Resolve::Auto && wears && tracked.near.iter().any(crowds) {
-            return Err(Refusal::Wears.into());
-        }
         if tracked.is_in_lockstep_blow() {
             return Err(Refusal::Blow.into());
         }
@@ -108,7 +108,10 @@ impl Scene<'_> {
             Resolve::Auto if self.rests(rb, tracked) => return Err(Refusal::Resting.into()),
             Resolve::Auto | Resolve::Micro => {}
         }
+        let skin = self.skin(rb, tracked)?;
+        let same_skin = |live: &&Live| live.skin.map(|(id, _)| id) == skin.map(|(id, _)| id);
         let known = tracked.live.as_ref().filter(|_| tracked.knows_surfaces(self.lies));
+        let known = known.filter(same_skin);
         let is_new = known.is_none();
         let surfaces = known.map_or(&tracked.near, |live| &live.surfaces).clone();
         let Some(&anchor) = surfaces.first() else { return Ok(None) };
@@ -134,20 +137,24 @@ impl Scene<'_> {
             course.state.position += frame * Vector3::z() * lift;
         }
         known.state = state;
-        if let Some(refusal) = self.bound_by_free(body, &surfaces, &course) {
+        if skin.is_some() && self.meets_others(rb, surfaces[0], &course) {
+            return Err(Refusal::Wears.into());
+        }
+        if let Some(refusal) = self.bound_by_free(rb, body, &surfaces, &course) {
             return Err(refusal.into());
         }
         let free = free::lead(self.lies, &surfaces).and_then(|(lead, free)| {
             let rb = self.world.bodies.get(free.body)?;
             Some((free.body, self.reach_of(rb, &lead, &course)))
         });
-        Ok(Some(Start { body, surfaces, frame, bounds, state, course, is_new, moves, free }))
+        Ok(Some(Start { body, surfaces, skin, frame, bounds, state, course, is_new, moves, free }))
     }
 
     /// The encounter that the body has or begins.
     pub fn encounter(&self, start: &Start, tracked: &Tracked) -> Result<Encounter, PhysicsError> {
         match (&tracked.live, &tracked.known) {
             (Some(live), _) if !start.is_new => Ok(live.encounter.clone()),
+            (_, Known::Ready(body)) if start.skin.is_some() => self.encounter_of_two(start, body),
             (_, Known::Ready(body)) => {
                 let met = start.surfaces.iter().map(|id| &*self.surfaces[id.0].surface);
                 Encounter::new(body, met, self.settings.encounter())
@@ -175,7 +182,7 @@ impl Scene<'_> {
         is_watched: bool,
     ) -> Result<How, Left> {
         let way = &errand.way;
-        if start.free.is_some() {
+        if start.free.is_some() || start.skin.is_some() {
             return match way.in_reach(&start.course, self.dt) {
                 None => Ok(How::Whole),
                 Some(refusal) => Err(refusal.into()),

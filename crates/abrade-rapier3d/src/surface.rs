@@ -23,6 +23,9 @@ impl fmt::Display for SurfaceId {
     }
 }
 
+/// Growth of what has worn after which a refused renewal is tried again.
+const AGAIN: f64 = 1.1;
+
 /// Box around the undeformed nodes, in the surface's frame.
 fn bounds(surface: &Surface) -> Extent {
     let [low, high]: [Point3<f64>; 2] = surface.bounds();
@@ -59,9 +62,12 @@ impl WornCollider {
         Self { surface, proxy, offset, exact: None, bounds, inflation, shown: None, refused: None }
     }
 
-    /// True when the surface is due for renewal and has worn since that was last refused.
+    /// True when the surface is due for renewal, and has worn by a good part since that was last
+    /// refused: to try costs as much as to do it.
     pub fn is_due(&self) -> bool {
-        self.surface.is_due_for_renewal() && self.refused != Some(self.surface.worn())
+        let further =
+            |refused: &Worn| self.surface.worn().displaced() > AGAIN * refused.displaced();
+        self.surface.is_due_for_renewal() && self.refused.as_ref().is_none_or(further)
     }
 
     /// Renews the surface; returns the volume that the solid has lost since the renewal before

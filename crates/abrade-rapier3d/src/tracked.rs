@@ -80,6 +80,8 @@ pub(crate) struct Live {
     pub encounter: Encounter,
     /// The surfaces it was made with, in order.
     pub surfaces: Vec<SurfaceId>,
+    /// The surface of the body's own, and its frame in that of the body.
+    pub skin: Option<(SurfaceId, Isometry3<f64>)>,
     /// The frame that it goes on in, once a surface of it has moved.
     pub frame: Option<Isometry3<f64>>,
 }
@@ -173,7 +175,7 @@ impl Tracked {
     pub fn touched(&self) -> impl Iterator<Item = SurfaceId> + '_ {
         let live = self.live.iter().filter(|live| live.encounter.is_open());
         let wall = self.against.iter().filter(|against| against.encounter.is_open());
-        let live = live.flat_map(|live| live.surfaces.iter().copied());
+        let live = live.flat_map(Live::all);
         let sprung = self.wearer.iter().flat_map(|(ids, _)| ids.iter().copied());
         let pressed = self.pressing.iter().map(|pressing| pressing.surface);
         live.chain(wall.map(|against| against.surface)).chain(sprung).chain(pressed)
@@ -250,6 +252,18 @@ impl Tracked {
     ) {
         self.let_go(surfaces, closed);
         self.hand_to(Resolver::Micro, None, events);
+    }
+
+    /// Rapier keeps its motion among others: what the other resolvers kept is let go.
+    pub fn taken_by_collision(
+        &mut self,
+        reason: Refusal,
+        surfaces: &mut [WornCollider],
+        closed: &mut Ledger,
+        events: &mut Vec<WearEvent>,
+    ) {
+        self.let_go(surfaces, closed);
+        self.hand_to(Resolver::Collision, Some(reason), events);
     }
 
     /// Ends what QuasiStatic presses it against, but for `kept`.

@@ -91,7 +91,7 @@ impl WearWorld {
                 Beside::Bound(reason) => {
                     self.leave_wall(body);
                     match self.settings.resolve == Resolve::Auto {
-                        true => self.crowd([surface], reason),
+                        true => self.crowd(body, [surface], reason),
                         false => self.refuse(body, surface, reason),
                     }
                 }

@@ -41,6 +41,13 @@ pub struct Checked {
     pub notes: Vec<String>,
 }
 
+impl Checked {
+    /// True for the name of a body of a stream.
+    pub fn is_streamed(&self, name: &String) -> bool {
+        self.streamed.values().any(|names| names.binary_search(name).is_ok())
+    }
+}
+
 /// Checks `scene`, whose text is `patched` and whose tree is `tree`.
 pub(crate) fn check(
     mut scene: Scene,

@@ -247,10 +247,7 @@ impl Carried {
     /// Lets go of the surfaces in the middle of a contact: what the springs hold is lost, and
     /// overhangs break off.
     pub fn let_go(&mut self, surfaces: &mut [Placed<'_>]) {
-        for (contact, placed) in self.integrator.contacts.iter_mut().zip(surfaces) {
-            contact.let_go(placed.surface);
-        }
-        self.integrator.lose_springs();
+        self.integrator.let_go(surfaces);
         self.owed = Default::default();
         self.swept = Grip::default();
         self.last = 0.0;

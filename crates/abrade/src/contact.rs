@@ -23,7 +23,7 @@ const SWEEP_YIELD: f64 = 0.4;
 const LIST_STEPS: f64 = 8.0;
 const LIST_PITCH: f64 = 0.05;
 const SWEPT_PITCH: f64 = 2.0;
-const MUTUAL_PITCH: f64 = 0.3;
+const MUTUAL_PITCH: f64 = 1.0;
 
 /// How a body meets a surface.
 #[derive(Clone, Debug)]

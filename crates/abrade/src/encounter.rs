@@ -161,7 +161,8 @@ impl Encounter {
         Integrator::new(body, surfaces, settings).map(|integrator| Self { integrator })
     }
 
-    /// An encounter of `body`, which wears on a surface of its own, with one `surface`.
+    /// An encounter of `body`, which wears on a surface of its own, with one `surface`. One that goes
+    /// on from its bytes lists its nodes and facets anew, and so may differ as that does.
     ///
     /// # Errors
     /// As [`Encounter::new`]; laws other than `Foundation`, `Eq5`, or a restitution below one; a
@@ -196,10 +197,10 @@ impl Encounter {
         self.integrator.advance(body, surfaces, loads, duration, until, observer)
     }
 
-    /// Ends the contact where it is: overhangs break off.
+    /// Ends the contact where it is: what its springs hold is lost, and overhangs break off.
     pub fn end(&mut self, surfaces: &mut [Placed<'_>]) {
         if self.integrator.fits(surfaces).is_ok() {
-            self.integrator.end_contact(surfaces);
+            self.integrator.let_go(surfaces);
         }
     }
 

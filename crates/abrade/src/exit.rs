@@ -103,8 +103,12 @@ fn is_clear(surface: &Surface, body: &Body, local: &State, inflation: f64) -> bo
     clear
 }
 
-/// An error when the centre of mass is below the undeformed surface.
+/// An error when the centre of mass is below the undeformed surface, of a body without one of its own.
 pub(crate) fn engulfed(placed: &Placed<'_>, state: &State) -> Result<(), PhysicsError> {
+    // The middle of a ring lies in what it turns on.
+    if placed.skin.is_some() {
+        return Ok(());
+    }
     let local = placed.pose.inverse_transform_point(&state.position);
     let depth = placed.surface.depth_of(&local);
     if depth > 0.0 { Err(PhysicsError::Engulfed { depth }) } else { Ok(()) }

@@ -2,7 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use crate::boxes::Boxes;
+use crate::box_grid::Boxes;
 use crate::surface::Surface;
 
 /// Relative difference of squared distances below which two facets are as near: a point beyond an

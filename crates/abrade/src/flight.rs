@@ -42,7 +42,9 @@ pub(crate) fn free_time(
         }
         Contact::Mutual(mutual) => {
             let Some(skin) = &placed.skin else { return 0.0 };
-            mutual.cover(placed, body, local, margin);
+            // The skin of a ball turns with it.
+            let speed = local.velocity.norm() + local.spin.norm() * body.shape.bounding_radius();
+            mutual.cover(placed, body, local, 2.0 * margin);
             let slack = mutual.slack(&body.shape, local).max(0.0);
             let covered = time_to_close(slack, speed, acceleration);
             return mutual.time_to_touch(skin, local, speed, acceleration).min(covered);

@@ -17,7 +17,8 @@ pub(crate) struct HardnessMap {
 impl Surface {
     /// Gives node `i` the hardness `factors[i]` times that of the material [-]; its shear hardness
     /// goes with it. Springs stay those of the material, so that a harder node yields at a larger
-    /// overlap. Nodes keep their factors in a renewal. A contact that has begun goes on with those
+    /// overlap. Nodes keep their factors in a renewal, which
+    /// may move them along the surface by a part of the pitch. A contact that has begun goes on with those
     /// that it found: give them before.
     ///
     /// # Errors

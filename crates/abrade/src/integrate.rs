@@ -404,8 +404,11 @@ impl Integrator {
         })
     }
 
-    /// Takes note that its contacts have let go: the energy of their springs is lost.
-    pub(crate) fn lose_springs(&mut self) {
+    /// Lets go of the surfaces: the energy of the springs is lost.
+    pub(crate) fn let_go(&mut self, surfaces: &mut [Placed<'_>]) {
+        for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
+            contact.let_go(placed.surface);
+        }
         self.pull = Pull::default();
         (self.touching, self.touched) = (false, false);
         self.ledger.history += std::mem::take(&mut self.ledger.elastic);

@@ -6,7 +6,7 @@
 #![warn(missing_docs)]
 
 mod body;
-mod boxes;
+mod box_grid;
 mod candidates;
 mod carried;
 mod carrier;
@@ -80,6 +80,7 @@ pub use leaf::Changes;
 pub use ledger::Ledger;
 pub use material::Material;
 pub use mesh::{Bend, Mended, MeshError, TriangleMesh};
+pub use mutual::can_meet;
 pub use nodes::Nodes;
 pub use press::{Hold, Pressed};
 pub use renewal::{RenewError, Renewal};

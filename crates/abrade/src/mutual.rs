@@ -14,7 +14,6 @@
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 
 use crate::body::{Body, State};
-use crate::candidates::travel;
 use crate::encounter::{Placed, Skin};
 use crate::error::PhysicsError;
 use crate::extent::{bounds, clearance};
@@ -27,6 +26,8 @@ use crate::surface::Surface;
 
 /// Yield overlaps within which facets are found beyond the way that lists are made for.
 const REACH_YIELD: f64 = 4.0;
+/// Part of the reach of its lists within which a body approaches.
+const APPROACH: f64 = 0.5;
 /// Share of the bounding radius by which nodes of a body may lie outside of its shape.
 const OUTSIDE: f64 = 1e-6;
 
@@ -69,6 +70,17 @@ fn shares(first: f64, second: f64) -> [f64; 2] {
     }
 }
 
+/// True for two surfaces of which each can wear the other, by their laws: `Foundation`, without `Eq5`
+/// and restitution, and with one hardness for all of their nodes.
+pub fn can_meet(one: &Surface, other: &Surface) -> bool {
+    [one, other].iter().all(|surface| {
+        let laws = surface.laws();
+        let sprung = matches!(laws.elastic, ElasticLaw::Foundation { .. });
+        let literal = laws.flow == (FlowLaw::CapozzaHanley { lateral: Lateral::Eq5 });
+        sprung && !literal && laws.restitution >= 1.0 && surface.hardness_factors().is_none()
+    })
+}
+
 impl Mutual {
     /// The contact of `skin`, within `shape`, with `surface`.
     pub(crate) fn new(
@@ -77,19 +89,10 @@ impl Mutual {
         surface: &Surface,
         keeps_ledger: bool,
     ) -> Result<Self, PhysicsError> {
-        for laws in [surface.laws(), skin.surface.laws()] {
-            let sprung = matches!(laws.elastic, ElasticLaw::Foundation { .. });
-            let literal = laws.flow == (FlowLaw::CapozzaHanley { lateral: Lateral::Eq5 });
-            if !sprung || literal || laws.restitution < 1.0 {
-                return Err(PhysicsError::Unsupported {
-                    what: "two surfaces that meet need the elastic law Foundation, a flow law for \
-                           any shape, and no restitution",
-                });
-            }
-        }
-        if [surface, &*skin.surface].iter().any(|surface| surface.hardness_factors().is_some()) {
+        if !can_meet(surface, skin.surface) {
             return Err(PhysicsError::Unsupported {
-                what: "two surfaces that meet have one hardness each, not one per node",
+                what: "two surfaces that meet need the elastic law Foundation, a flow law for any \
+                       shape, no restitution, and one hardness each",
             });
         }
         let out = |x: &Point3<f64>| clearance(shape, &State::at(Point3::origin()), x);
@@ -139,7 +142,14 @@ impl Mutual {
 
     /// How far the body may move before [`Mutual::cover`] lists anew [m].
     pub(crate) fn slack(&self, shape: &Shape, local: &State) -> f64 {
-        self.made.as_ref().map_or(-1.0, |(at, margin)| margin - travel(shape, at, local))
+        // A contact should not begin with lists that are soon used up.
+        let part = if self.goes_on { 1.0 } else { APPROACH };
+        let travel = |at: &State| {
+            let turn = at.rotation.angle_to(&local.rotation);
+            (local.position - at.position).norm() + turn * shape.bounding_radius()
+        };
+        let left = |(at, margin): &(State, f64)| part * margin - travel(at);
+        self.made.as_ref().map_or(-1.0, left)
     }
 
     /// Makes sure that the lists cover the `body` at `local`, where a step ends; `margin` [m] is the reach

@@ -14,25 +14,27 @@ mod strike;
 
 use std::collections::BTreeMap;
 
-use rapier::dynamics::RigidBody;
+use abrade::PhysicsError;
+use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{ColliderHandle, ContactPair};
 
 use crate::collision::blow::Blow;
 use crate::collision::clusters::Clusters;
 use crate::collision::strike::{Outcome, Striker};
-use crate::event::Refusal;
+use crate::event::{Refusal, WearEvent};
 use crate::gate;
 use crate::resolver::Resolver;
-use crate::surface::SurfaceId;
+use crate::scalar;
+use crate::settle::GROWTH;
+use crate::surface::{SurfaceId, WornCollider};
 use crate::tracked::Tracked;
 use crate::view::WorldView;
 use crate::world::WearWorld;
-use crate::{booking::Booking, scalar};
 
-/// Growth of the impulse of a contact from one step to the next that is no blow.
-const GROWTH: f64 = 1.5;
 /// Speeds that gravity gives in a step below which a blow is none.
 const REST: f64 = 2.0;
+/// Part of a pitch by which a body that moves no further in a step stands still.
+const STILL: f64 = 1e-4;
 /// Steps in which Rapier has braked whatever came.
 const SPAN: u32 = 4;
 /// Share of the speed of a blow below which two bodies no longer approach.
@@ -61,7 +63,8 @@ pub(crate) type Bores = BTreeMap<PairKey, Bore>;
 impl Bore {
     /// True for impulses that a contact can have.
     pub fn is_sound(&self) -> bool {
-        [self.lying, self.blow, self.energy].iter().all(|x| x.is_finite() && *x >= 0.0)
+        let sizes = [self.lying, self.blow, self.energy];
+        sizes.iter().all(|x| x.is_finite() && *x >= 0.0) && self.steps < SPAN
     }
 }
 
@@ -94,9 +97,17 @@ impl Bore {
 }
 
 impl WearWorld {
-    /// Leaves the contacts of the surfaces `near` to Rapier through the step, to wear by their
-    /// impulses after it.
-    pub(crate) fn crowd(&mut self, near: impl IntoIterator<Item = SurfaceId>, reason: Refusal) {
+    /// Leaves the contacts of a body with the surfaces `near` it to Rapier through the step, to wear by
+    /// their impulses after it.
+    pub(crate) fn crowd(
+        &mut self,
+        body: RigidBodyHandle,
+        near: impl IntoIterator<Item = SurfaceId>,
+        reason: Refusal,
+    ) {
+        *self.reasons.entry((Resolver::Collision, reason.name().into())).or_default() += 1;
+        let tracked = Tracked::slot(&mut self.bodies, body);
+        tracked.taken_by_collision(reason, &mut self.surfaces, &mut self.closed, &mut self.events);
         self.current.crowded.extend(near.into_iter().map(|surface| (surface, reason)));
     }
 
@@ -118,7 +129,8 @@ impl WearWorld {
         }
         let old = std::mem::take(&mut self.bores);
         let bore = |key: &PairKey| old.get(key).copied().unwrap_or_default();
-        let rest = REST * scalar::vector(world.gravity).norm() * self.current.dt;
+        let gravity = scalar::vector(world.gravity).norm();
+        let rest = (REST * gravity * self.current.dt).max(self.still());
         let part = |key: &PairKey, blow: &Blow| bore(key).part(blow, rest);
         let contacts = met.iter().map(|(key, (_, blow, _))| (blow, part(key, blow)));
         let clusters = Clusters::of(contacts, rest);
@@ -138,51 +150,44 @@ impl WearWorld {
         let is_plate = |at: &Option<usize>| {
             at.is_some_and(|at| gate::can_hold(&self.lies, &self.surfaces, SurfaceId(at)))
         };
-        // A plate at rest is worn by what lies on it and strikes it, in the other resolvers.
+        let Some((body, is_first)) = moving(pair, world) else { return };
+        let Some(at) = own.into_iter().flatten().next().map(SurfaceId) else { return };
+        // Rapier's contact with a plate at rest is for the other resolvers, which the body is not in.
         if own.iter().any(is_plate) {
-            return;
+            return self.refuse(body, at, reason);
         }
         let Some(striker) = Striker::of(pair, own, blow, &self.surfaces, world) else {
-            let other = if own[0].is_some() { pair.collider2 } else { pair.collider1 };
-            self.say_unresolved(pair, own, Refusal::Shape { collider: other }, world);
-            return;
+            let collider = if own[0].is_some() { pair.collider2 } else { pair.collider1 };
+            return self.refuse(body, at, Refusal::Shape { collider });
         };
         let settings = self.settings.encounter();
-        let outcome = striker.run(&mut self.surfaces, blow, settings);
-        let Outcome { ledger, steps, node_evaluations, contact_time, worn } = match outcome {
-            Ok(outcome) => outcome,
-            Err(error) => {
-                let body = moving(pair, world).map(|(body, _)| body);
-                if let (Some(body), Some(at)) = (body, own.into_iter().flatten().next()) {
-                    self.fail(body, SurfaceId(at), error);
-                }
-                return;
-            }
-        };
+        let (outcome, done) = striker.run(&mut self.surfaces, blow, settings);
+        let Outcome { ledger, steps, node_evaluations, contact_time, worn } = outcome;
         self.closed += ledger;
         self.counters.collision += 1;
         self.counters.steps += steps;
         self.counters.node_evaluations += node_evaluations;
-        *self.reasons.entry((Resolver::Collision, reason.name().into())).or_default() += 1;
-        let Some((body, is_first)) = moving(pair, world) else { return };
         let impulse = blow.normal * if is_first { -blow.impulse } else { blow.impulse };
-        let tracked = Tracked::slot(&mut self.bodies, body);
-        tracked.hand_to(Resolver::Collision, Some(reason), &mut self.events);
-        let booking = Booking { impulse, contact_time, touches: false };
-        tracked.book(&booking, &worn, &mut self.events);
+        for (surface, volume) in worn {
+            self.events.push(WearEvent::Started { body, surface });
+            self.events.push(WearEvent::Ended { body, surface, impulse, volume, contact_time });
+        }
+        match done {
+            Ok(()) => {}
+            Err(PhysicsError::StartsInside { .. } | PhysicsError::StepVanished { .. }) => {
+                self.refuse(body, at, Refusal::Inside);
+            }
+            Err(PhysicsError::TooManySteps { .. }) => self.refuse(body, at, Refusal::Stiff),
+            Err(PhysicsError::Unsupported { .. }) => self.refuse(body, at, Refusal::Wears),
+            Err(error) => self.fail(body, at, error),
+        }
     }
 
-    fn say_unresolved(
-        &mut self,
-        pair: &ContactPair,
-        own: [Option<usize>; 2],
-        reason: Refusal,
-        world: &WorldView<'_>,
-    ) {
-        let body = moving(pair, world).map(|(body, _)| body);
-        if let (Some(body), Some(at)) = (body, own.into_iter().flatten().next()) {
-            self.refuse(body, SurfaceId(at), reason);
-        }
+    /// Speed at which a body does not move in a step as the finest of the surfaces sees it [m/s].
+    fn still(&self) -> f64 {
+        let pitch = |worn: &WornCollider| worn.surface.pitch();
+        let finest = self.surfaces.iter().map(pitch).fold(f64::INFINITY, f64::min);
+        STILL * finest / self.current.dt
     }
 }
 
@@ -194,10 +199,7 @@ fn key(pair: &ContactPair) -> PairKey {
 
 /// The dynamic body of a pair that is awake, the second if both are, and whether it is the first:
 /// sleeping pairs keep the impulses of their last step.
-fn moving(
-    pair: &ContactPair,
-    world: &WorldView<'_>,
-) -> Option<(rapier::dynamics::RigidBodyHandle, bool)> {
+fn moving(pair: &ContactPair, world: &WorldView<'_>) -> Option<(RigidBodyHandle, bool)> {
     let body = |collider: ColliderHandle| {
         let parent = world.colliders.get(collider)?.parent()?;
         let awake = |rb: &&RigidBody| rb.is_dynamic() && !rb.is_sleeping();

@@ -2,12 +2,13 @@
 
 use abrade::{
     Ball, Body, Encounter, EncounterSettings, Inertia, Ledger, Loads, PhysicsError, Piece, Placed,
-    Shape, Skin, State, Surface, Until,
+    Shape, Skin, State, Surface, Until, can_meet,
 };
 use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
 use rapier::geometry::{Collider, ContactPair};
 
 use crate::collision::blow::Blow;
+use crate::micro;
 use crate::path::Extent;
 use crate::surface::{SurfaceId, WornCollider};
 use crate::view::WorldView;
@@ -35,6 +36,7 @@ pub(crate) struct Striker {
 }
 
 /// What a collision did.
+#[derive(Default)]
 pub(crate) struct Outcome {
     pub ledger: Ledger,
     pub steps: u64,
@@ -63,9 +65,10 @@ impl Striker {
             let worn = &surfaces[own[stands]?];
             let pose = worn.pose(colliders[stands]);
             let towards = if stands == 0 { -1.0 } else { 1.0 };
-            let fresh =
-                Self::body(colliders[strikes], own[strikes].map(|at| &surfaces[at]), worn, &pose)?;
-            let (mut body, skin) = fresh;
+            // Where their laws cannot meet, the one that stands wears alone.
+            let skin = own[strikes].filter(|&at| can_meet(&surfaces[at].surface, &worn.surface));
+            let skin = skin.map(|at| &surfaces[at]);
+            let (mut body, skin) = Self::body(colliders[strikes], skin, worn, &pose)?;
             let down = pose.inverse_transform_vector(&(blow.normal * towards));
             let sliding = pose.inverse_transform_vector(&blow.sliding) * -towards;
             let back = blow.overlap.max(0.0) + CLEAR * worn.surface.pitch();
@@ -104,51 +107,70 @@ impl Striker {
         Some((body, Some(Isometry3::from(-centre.coords))))
     }
 
-    /// Lets the two collide; the surfaces keep what it did.
+    /// Lets the two collide; the surfaces keep what it did, also before an error.
     pub fn run(
         mut self,
         surfaces: &mut [WornCollider],
         blow: &Blow,
         settings: EncounterSettings,
-    ) -> Result<Outcome, PhysicsError> {
-        let ids = [Some(self.stands), self.skin.map(|(id, _)| id)];
-        let [stands, skin] = borrow(surfaces, ids);
-        let Some(surface) = stands else { return Err(GONE) };
-        let skin = skin.zip(self.skin).map(|(surface, (_, pose))| Skin { surface, pose });
-        let mut encounter = match &skin {
-            Some(skin) => Encounter::of_two(&self.body, skin, surface, settings)?,
-            None => Encounter::new(&self.body, [&*surface], settings)?,
+    ) -> (Outcome, Result<(), PhysicsError>) {
+        let mut ids = vec![self.stands];
+        ids.extend(self.skin.map(|(id, _)| id));
+        let mut outcome = Outcome::default();
+        let mut owned = micro::owned(surfaces, &ids);
+        let Some(surface) = owned.next() else { return (outcome, Ok(())) };
+        let skin = owned.next().zip(self.skin).map(|(surface, (_, pose))| Skin { surface, pose });
+        let encounter = match &skin {
+            Some(skin) => Encounter::of_two(&self.body, skin, surface, settings),
+            None => Encounter::new(&self.body, [&*surface], settings),
         };
-        let pitch = surface.pitch();
-        let pose = Isometry3::identity();
-        let mut placed = [Placed { surface, pose, carrier: None, skin }];
+        let mut encounter = match encounter {
+            Ok(encounter) => encounter,
+            Err(error) => return (outcome, Err(error)),
+        };
+        let (pose, carrier) = (Isometry3::identity(), None);
+        let mut placed = [Placed { surface, pose, carrier, skin }];
         lift(&mut encounter, &mut self.body, &self.down, &placed);
-        let (mut steps, mut node_evaluations, mut contact_time) = (0, 0, 0.0);
-        let fly = FLIGHT * pitch / blow.speed();
+        let done = self.fly(&mut encounter, &mut placed, blow, settings.step_limit, &mut outcome);
+        encounter.end(&mut placed);
+        let [Placed { surface, skin, .. }] = placed;
+        let gained = |surface: &mut Surface| surface.settle().displaced();
+        outcome.worn.push((self.stands, gained(surface)));
+        if let (Some(skin), Some((id, _))) = (skin, self.skin) {
+            outcome.worn.push((id, gained(skin.surface)));
+        }
+        outcome.ledger = *encounter.ledger();
+        (outcome, done)
+    }
+
+    /// Flies on until the two have parted.
+    fn fly(
+        &mut self,
+        encounter: &mut Encounter,
+        placed: &mut [Placed<'_>],
+        blow: &Blow,
+        step_limit: u64,
+        outcome: &mut Outcome,
+    ) -> Result<(), PhysicsError> {
+        let fly = FLIGHT * placed[0].surface.pitch() / blow.speed();
         let mut touched = false;
         for _ in 0..LOOKS {
             let time = if touched { PERIOD * encounter.period() } else { fly };
             let (loads, until) = (Loads::default(), Until::FirstExit);
-            let done =
-                encounter.advance(&mut self.body, &mut placed, &loads, time, until, &mut ())?;
-            steps += done.steps;
-            node_evaluations += done.node_evaluations;
-            contact_time += done.contact_time;
+            let done = encounter.advance(&mut self.body, placed, &loads, time, until, &mut ())?;
+            outcome.steps += done.steps;
+            outcome.node_evaluations += done.node_evaluations;
+            outcome.contact_time += done.contact_time;
             touched |= done.contact_time > 0.0;
             let leaves = self.body.state.velocity.dot(&self.down) <= 0.0;
             if done.exited || touched && leaves && !encounter.in_contact() {
                 break;
             }
+            if outcome.steps > step_limit {
+                return Err(PhysicsError::TooManySteps { steps: outcome.steps });
+            }
         }
-        encounter.end(&mut placed);
-        let [Placed { surface, skin, .. }] = placed;
-        let gained = |surface: &mut Surface| surface.settle().displaced();
-        let mut worn = vec![(self.stands, gained(surface))];
-        if let (Some(skin), Some((id, _))) = (skin, self.skin) {
-            worn.push((id, gained(skin.surface)));
-        }
-        let ledger = *encounter.ledger();
-        Ok(Outcome { ledger, steps, node_evaluations, contact_time, worn })
+        Ok(())
     }
 }
 
@@ -163,21 +185,6 @@ fn lift(encounter: &mut Encounter, body: &mut Body, down: &Vector3<f64>, placed:
     }
 }
 
-const GONE: PhysicsError = PhysicsError::Unsupported { what: "a surface against itself" };
-
 fn locked(body: Body) -> Body {
     Body { rotation_locked: true, ..body }
-}
-
-/// Two surfaces, to be worn; the second is none where it is the first.
-fn borrow(surfaces: &mut [WornCollider], ids: [Option<SurfaceId>; 2]) -> [Option<&mut Surface>; 2] {
-    let mut found = [None, None];
-    for (at, worn) in surfaces.iter_mut().enumerate() {
-        if let Some(order) = ids.iter().position(|id| *id == Some(SurfaceId(at))) {
-            let surface = worn.owned();
-            surface.settle();
-            found[order] = Some(surface);
-        }
-    }
-    found
 }

@@ -97,7 +97,7 @@ impl Bodies {
             let aim = aim.filter(|&i| solids[i].is_none());
             Track {
                 name: name.clone(),
-                is_streamed: checked.streamed.values().any(|names| names.contains(name)),
+                is_streamed: checked.is_streamed(name),
                 inertia: body.inertia,
                 start: body.state,
                 reach: body.shape.bounding_radius(),

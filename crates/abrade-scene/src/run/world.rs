@@ -168,13 +168,17 @@ impl World {
 
     /// The error with the scene's names.
     fn explain(&self, error: WearError) -> RunError {
+        let what = error.to_string();
         let WearError::Physics { body, surface, source } = error else {
-            return RunError::Engine { what: error.to_string() };
+            return RunError::Engine { what };
         };
-        let body = self.indices.get(&body).and_then(|&i| self.body_names.get(i));
+        // The body of a surface has no name of its own.
+        let Some(body) = self.indices.get(&body).and_then(|&i| self.body_names.get(i)) else {
+            return RunError::Engine { what };
+        };
         let surface = self.surfaces.iter().position(|id| *id == surface);
         RunError::Physics {
-            body: body.cloned().unwrap_or_default(),
+            body: body.clone(),
             surface: surface.and_then(|i| self.surface_names.get(i)).cloned().unwrap_or_default(),
             reason: source,
         }
