@@ -88,27 +88,22 @@ impl Facet {
 }
 
 impl Facets {
-    /// Takes the facets with these `corners` of `surface`, to be found by points within `reach`
-    /// [m] of them, also once they have sunk by as much.
+    /// Takes the facets with these `corners` of `surface` as they are now, to be found by points within
+    /// `reach` [m] of them.
     pub(crate) fn set(&mut self, corners: &[[u32; 3]], surface: &Surface, reach: f64) {
         self.corners.clear();
         self.corners.extend_from_slice(corners);
         self.reach = reach;
-        self.refresh(surface);
+        self.facets.clear();
+        let place = |i: u32| surface.position(i as usize);
+        self.facets.extend(corners.iter().map(|corners| Facet::new(corners.map(place))));
         let around = |facet: &Facet| {
             let [a, b, c] = [Vector3::zeros(), facet.edges[0], facet.edges[1]];
-            let grown = Vector3::repeat(2.0 * reach);
+            let grown = Vector3::repeat(reach);
             let (low, high) = (a.inf(&b).inf(&c) - grown, a.sup(&b).sup(&c) + grown);
             [facet.corner + low, facet.corner + high]
         };
         self.boxes.set(self.facets.iter().map(around));
-    }
-
-    /// Takes over what has worn since.
-    pub(crate) fn refresh(&mut self, surface: &Surface) {
-        self.facets.clear();
-        let place = |i: u32| surface.position(i as usize);
-        self.facets.extend(self.corners.iter().map(|corners| Facet::new(corners.map(place))));
     }
 
     /// Distance up to which points are found [m].
@@ -201,7 +196,7 @@ mod tests {
     use crate::mesh::TriangleMesh;
     use crate::surface::SurfaceLaws;
 
-    fn cube() -> (Surface, Facets) {
+    fn cube() -> Facets {
         let mesh = TriangleMesh::cuboid(Vector3::repeat(0.5), 0.25).expect("a cube");
         let material = Material {
             hardness: 1.0,
@@ -213,14 +208,14 @@ mod tests {
         let surface = Surface::mesh(&mesh, SurfaceLaws::of(material)).expect("a surface");
         let mut facets = Facets::default();
         facets.set(mesh.triangles(), &surface, 0.3);
-        (surface, facets)
+        facets
     }
 
     /// Fails for a wrong side beyond edges and corners, a nearest point off a facet, and a distance
     /// that is not that of a box.
     #[test]
     fn heights_are_the_signed_distances_of_the_solid() {
-        let (_, facets) = cube();
+        let facets = cube();
         let mut count = 0;
         for i in 0..40 {
             for j in 0..40 {
@@ -244,19 +239,5 @@ mod tests {
             }
         }
         assert!(count > 30_000, "{count}");
-    }
-
-    /// Fails for facets that stay where they were when nodes sink.
-    #[test]
-    fn facets_follow_their_nodes() {
-        let (mut surface, mut facets) = cube();
-        for id in 0..surface.nodes().len() {
-            surface.sink(id as u32, 0.05);
-        }
-        let x = Point3::new(0.1, 0.1, 0.5);
-        let before = facets.foot(&x).expect("near").height;
-        facets.refresh(&surface);
-        let after = facets.foot(&x).expect("near").height;
-        assert!(before.abs() < 1e-12 && (after - 0.05).abs() < 1e-12, "{before} {after}");
     }
 }

@@ -24,7 +24,9 @@ use crate::patch::Patch;
 use crate::shape::Shape;
 use crate::surface::Surface;
 
-/// Yield overlaps within which facets are found beyond the way that lists are made for.
+/// Distance within which nodes find facets, in pitches and in yield overlaps: they touch no deeper,
+/// and no farther off is a step of flight seen.
+const REACH_PITCH: f64 = 0.3;
 const REACH_YIELD: f64 = 4.0;
 /// Part of the reach of its lists within which a body approaches.
 const APPROACH: f64 = 0.5;
@@ -172,7 +174,7 @@ impl Mutual {
         skin.surface.visit_facets(&low, &high, |corners| self.lists.own.push(corners));
         self.lists.own.sort_unstable();
         let began = body.state.seen_from(&placed.pose);
-        let reach = 2.0 * margin + REACH_YIELD * self.yield_overlap();
+        let reach = REACH_PITCH * met.pitch() + REACH_YIELD * self.yield_overlap();
         let (Lists { met: facets, own }, on) = (&self.lists, self.goes_on);
         if let Some(forth) = &mut self.forth {
             let near = |x: &Point3<f64>| clearance(shape, local, x) < margin;
