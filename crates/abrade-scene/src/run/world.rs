@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use abrade::{Body, Drive, Driven, Ledger, Piece, State, Surface, Until};
-use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Rotation3, UnitQuaternion, Vector3};
 
 use super::plug;
 use super::plug::rapier::dynamics::{MassProperties, RigidBodyBuilder, RigidBodyHandle};
@@ -320,7 +320,9 @@ fn carrier_body(carrier: &BuiltCarrier, pose: &Isometry3<f64>) -> RigidBodyBuild
             if turn.determinant() < 0.0 {
                 turn.column_mut(0).neg_mut();
             }
-            let turn = UnitQuaternion::from_matrix(&turn);
+            // Directly: nalgebra's search for the nearest rotation does not end for some half turns.
+            let turn = Rotation3::from_matrix_unchecked(turn);
+            let turn = UnitQuaternion::from_rotation_matrix(&turn);
             let properties = MassProperties::with_principal_inertia_frame(
                 scalar::to_vector(&carrier.centre_local.coords),
                 scalar::narrow(inertia.mass),
