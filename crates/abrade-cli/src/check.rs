@@ -20,9 +20,18 @@ pub(crate) fn check(arguments: &SceneArguments) -> Result<(), Failure> {
 fn text(checked: &Checked) -> String {
     let (scene, size) = (&checked.scene, checked.size());
     let mut rows = vec![row("scene", scene.name.clone())];
-    for (name, surface) in &scene.surfaces {
+    let is_copy = |name: &String| checked.copied.values().any(|names| names.contains(name));
+    for (name, surface) in scene.surfaces.iter().filter(|(name, _)| !is_copy(name)) {
         if let Some(size) = size.surfaces.get(name) {
             rows.push(row("surface", format!("{name}: {}", surface_text(surface, size))));
+        }
+    }
+    for (name, names) in &checked.copied {
+        let first = names.first();
+        let first = first.and_then(|first| scene.surfaces.get(first).zip(size.surfaces.get(first)));
+        if let Some((surface, size)) = first {
+            let each = surface_text(surface, size);
+            rows.push(row("surface", format!("{name}: {} copies, each {each}", names.len())));
         }
     }
     let of_stream = |name: &String| checked.is_streamed(name);

@@ -23,7 +23,8 @@ fn write_digest(
     folder: &Path,
 ) -> std::fmt::Result {
     writeln!(out, "{}", summary.scene)?;
-    for (name, surface) in &summary.surfaces {
+    let is_copy = |name: &String| checked.copied.values().any(|names| names.contains(name));
+    for (name, surface) in summary.surfaces.iter().filter(|(name, _)| !is_copy(name)) {
         let mut parts = format!(
             "displaced {}, deepest {}, {} of {} nodes",
             volume(surface.wear_volume),
@@ -41,6 +42,15 @@ fn write_digest(
             write!(parts, ", {:.4} mm3 per mm", rate * 1e6)?;
         }
         writeln!(out, "  surface {name:12} {parts}")?;
+    }
+    for (name, names) in &checked.copied {
+        let copies: Vec<_> = names.iter().filter_map(|name| summary.surfaces.get(name)).collect();
+        let displaced: f64 = copies.iter().map(|copy| copy.wear_volume).sum();
+        let (all, displaced) = (copies.len(), volume(displaced));
+        let deepest = length(copies.iter().map(|copy| copy.max_depth).fold(0.0, f64::max));
+        let worn = copies.iter().filter(|copy| copy.wear_volume > 0.0).count();
+        let line = format!("{all} copies, {worn} worn, displaced {displaced}, deepest {deepest}");
+        writeln!(out, "  surface {name:12} {line}")?;
     }
     let of_stream = |name: &String| checked.is_streamed(name);
     for (name, body) in summary.bodies.iter().filter(|(name, _)| !of_stream(name)) {
@@ -84,7 +94,8 @@ fn write_digest(
         summary.simulated, summary.steps, summary.node_evaluations, summary.wall, summary.precision
     )?;
     let picture = checked.scene.outputs.contains(&Output::Picture);
-    let mut surfaces = summary.surfaces.keys();
+    let single = summary.surfaces.keys().filter(|name| !is_copy(name));
+    let mut surfaces = single.chain(checked.copied.keys());
     let file = match (picture, surfaces.next(), surfaces.next()) {
         (true, Some(first), Some(_)) => format!("surface_{first}.png and more"),
         (true, ..) => "surface.png and more".to_owned(),

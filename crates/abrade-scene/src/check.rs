@@ -4,6 +4,7 @@
 mod body;
 mod carrier;
 mod closed;
+mod copies;
 mod hardness;
 mod motion;
 mod placement;
@@ -25,10 +26,13 @@ use crate::spans::{Node, ScenePath};
 /// A scene without a known fault, and the solids of its bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checked {
-    /// The scene, with the bodies of its streams among the others.
+    /// The scene, with the bodies of its streams and the copies of its surfaces among the others.
     pub scene: Scene,
     /// Names of the bodies of each stream, in the order in which they come.
     pub streamed: BTreeMap<String, Vec<String>>,
+    /// Names of the copies of each surface that has some, in the order of their numbers. The
+    /// scene's surfaces are the copies.
+    pub copied: BTreeMap<String, Vec<String>>,
     /// Folder in which the files that it names lie.
     pub folder: PathBuf,
     /// Geometry and inertia of each body.
@@ -61,6 +65,7 @@ pub(crate) fn check(
     checker.check_materials();
     let mut notes = Vec::new();
     let meshes = checker.check_surfaces(&folder, &mut notes);
+    checker.check_copies(&meshes);
     let hardness = checker.check_hardnesses(&folder, &meshes);
     let mut solids = checker.check_bodies(&folder, &meshes, &mut notes);
     let streamed = checker.check_streams(&folder, &meshes, &mut notes);
@@ -71,7 +76,11 @@ pub(crate) fn check(
     }
     solids.extend(streamed.solids);
     scene.bodies.extend(streamed.bodies);
-    Ok(Checked { scene, streamed: streamed.names, folder, solids, meshes, hardness, notes })
+    let streamed = streamed.names;
+    let copied = BTreeMap::new();
+    let mut checked = Checked { scene, streamed, copied, folder, solids, meshes, hardness, notes };
+    checked.copy_surfaces();
+    Ok(checked)
 }
 
 /// Collects problems and finds their places.

@@ -11,6 +11,7 @@ mod carrier;
 mod check;
 mod closed;
 pub mod clump;
+mod copies;
 mod hardness;
 mod load;
 mod mesh_file;

@@ -1,9 +1,13 @@
-//! How deep a body lies inside the solid of a mesh whose vertices are nodes.
+//! How deep a body lies inside the solid of a mesh whose vertices are nodes; whether two such solids
+//! overlap.
 
 use abrade::{Hull, Piece, Shape, State, TriangleMesh};
 use nalgebra::{Isometry3, Point3};
 
 use crate::place;
+
+/// Part of its size by which a solid may reach into another one that it touches.
+const TOUCH: f64 = 1e-9;
 
 /// Depth [m] of a body inside the solid that `mesh` bounds, `state` being in the mesh's frame;
 /// none outside. Nodes inside the body count, and points of the body inside the solid; facets of
@@ -30,6 +34,26 @@ pub(crate) fn depth_in_mesh(
     };
     let deepest = shape.pieces().iter().map(depth).fold(0.0, f64::max);
     (deepest > place::round_off(shape, state)).then_some(deepest)
+}
+
+/// The first two of the solids that `mesh` bounds in these `frames` of which one has a node inside
+/// the other; that they touch is no overlap. Facets that pass between nodes do not count.
+pub(crate) fn first_overlap(mesh: &TriangleMesh, frames: &[Isometry3<f64>]) -> Option<[usize; 2]> {
+    let [low, high] = mesh.bounds();
+    let middle = nalgebra::center(&low, &high);
+    let across = (high - low).norm();
+    let middles: Vec<_> = frames.iter().map(|frame| frame * middle).collect();
+    let shrunk = |corner: &Point3<f64>| middle + (corner - middle) * (1.0 - TOUCH);
+    let nodes: Vec<_> = mesh.vertices().iter().map(shrunk).collect();
+    let in_box = |p: &Point3<f64>| (0..3).all(|axis| low[axis] <= p[axis] && p[axis] <= high[axis]);
+    let inside = |p: Point3<f64>| in_box(&p) && contains(mesh, &p);
+    let reaches = |way: Isometry3<f64>| nodes.iter().any(|node| inside(way * node));
+    let overlap = |a: usize, b: usize| {
+        let way = frames[a].inv_mul(&frames[b]);
+        (middles[a] - middles[b]).norm() < across && (reaches(way) || reaches(way.inverse()))
+    };
+    let mut pairs = (0..frames.len()).flat_map(|a| (a + 1..frames.len()).map(move |b| [a, b]));
+    pairs.find(|&[a, b]| overlap(a, b))
 }
 
 /// Positive when the ball touches a node, or its centre lies inside.

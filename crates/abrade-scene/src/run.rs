@@ -20,6 +20,7 @@ mod bodies;
 mod double;
 mod ending;
 mod engine;
+mod entries;
 mod extent;
 mod frames;
 mod record;

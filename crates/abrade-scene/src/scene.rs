@@ -5,6 +5,7 @@
 //! unit in brackets; the JSON schema and the field reference are made from these lines.
 
 mod body;
+mod copies;
 mod geometry;
 mod hardness;
 mod motion;
@@ -20,6 +21,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub use body::{Placement, Rotation, SceneBody};
+pub use copies::Copies;
 pub use geometry::Geometry;
 pub use hardness::{HardnessMap, Region, RegionBox};
 pub use motion::{Motion, Solution};

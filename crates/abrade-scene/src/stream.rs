@@ -14,7 +14,6 @@ pub(crate) const MOST: u32 = 100_000;
 impl Stream {
     /// The bodies of the stream `name`, by their names, in the order in which they come.
     pub(crate) fn bodies(&self, name: &str) -> impl Iterator<Item = (String, SceneBody)> {
-        let digits = self.count.to_string().len();
         let (velocity, _) = place::velocity(&self.motion);
         let [across, up] = square_to(&velocity);
         let mut generator = Pcg32::seed_from_u64(self.seed);
@@ -29,9 +28,15 @@ impl Stream {
                 motion: self.motion.clone(),
                 rotation_locked: false,
             };
-            (format!("{name}_{:0digits$}", k + 1), body)
+            (numbered(name, u64::from(k) + 1, u64::from(self.count)), body)
         })
     }
+}
+
+/// Name of the one with this `number` of the `count` that `name` stands for; names sort like numbers.
+pub(crate) fn numbered(name: &str, number: u64, count: u64) -> String {
+    let digits = count.to_string().len();
+    format!("{name}_{number:0digits$}")
 }
 
 /// Two directions square to `v` and to each other.

@@ -41,6 +41,14 @@ impl Checker<'_> {
             let known: Vec<&str> = self.scene.surfaces.keys().map(String::as_str).collect();
             return self.undefined(&position.join("surface"), "surface", name, &known);
         };
+        if surface.copies.is_some() {
+            let marks = vec![
+                self.mark(&position.join("surface"), "must name one surface"),
+                self.mark(&ScenePath::of(["surfaces", name, "copies"]), "makes many of it"),
+            ];
+            let message = format!("`{path}` cannot lie on the surface `{name}`, which has copies");
+            return self.problems.push(Problem { message, marks, help: None });
+        }
         if !surface.geometry.is_closed() {
             return self.check_drive_still(path, body, name, surface);
         }
@@ -105,14 +113,17 @@ impl Checker<'_> {
             None => local,
         };
         for (surface_name, surface) in &scene.surfaces {
-            let Some(frame) = place::frame(surface) else { continue };
-            let state = match own {
-                Some((own_name, _)) if own_name == surface_name => local,
-                _ => world.seen_from(&frame),
-            };
-            let depth = depth_inside(surface, meshes.get(surface_name), solid, &state);
-            if let Some(depth) = depth {
-                self.refuse_inside(path, name, body, surface_name, surface, depth);
+            let mesh = meshes.get(surface_name);
+            let found = surface.copies(surface_name).find_map(|(copy_name, copy)| {
+                let frame = place::frame(&copy)?;
+                let state = match own {
+                    Some((own_name, _)) if own_name == surface_name => local,
+                    _ => world.seen_from(&frame),
+                };
+                Some((copy_name, depth_inside(&copy, mesh, solid, &state)?))
+            });
+            if let Some((copy_name, depth)) = found {
+                self.refuse_inside(path, name, body, &copy_name, surface, depth);
             }
         }
     }

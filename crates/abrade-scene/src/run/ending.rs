@@ -6,13 +6,14 @@ use abrade_report::{Mark, Picture, ReportError, SolidPicture, Summary, mesh_file
 
 use crate::run::bodies::Bodies;
 use crate::run::engine::Engine;
+use crate::run::entries::{Entry, stem};
 use crate::scene::{MeshFormat, Output};
 
 /// A run that is over.
 pub(crate) struct Ending<'a> {
     pub folder: &'a Path,
     pub title: &'a str,
-    pub surface_names: &'a [String],
+    pub entries: &'a [Entry],
     pub engine: &'a dyn Engine,
     pub bodies: &'a Bodies,
 }
@@ -32,10 +33,10 @@ impl Ending<'_> {
             (false, false) => 0,
         };
         let mut first = None;
-        for (index, name) in self.surface_names.iter().enumerate().take(shown) {
-            let picture = self.picture(index)?;
+        for entry in self.entries.iter().take(shown) {
+            let picture = self.picture(entry.members[0])?;
             if wants(&Output::Picture) {
-                let path = self.folder.join(stem(self.surface_names, name) + ".png");
+                let path = self.folder.join(stem(self.entries, entry) + ".png");
                 abrade_report::atomic::write(&path, &picture)?;
             }
             first.get_or_insert(picture);
@@ -46,12 +47,12 @@ impl Ending<'_> {
         summary.write(&self.folder.join("summary.json"))
     }
 
-    /// The mesh file of every surface.
+    /// The mesh file of every surface, of copies of the first.
     fn write_meshes(&self, format: MeshFormat) -> Result<(), ReportError> {
-        for (index, name) in self.surface_names.iter().enumerate() {
-            let surface = self.engine.surface(index);
+        for entry in self.entries {
+            let surface = self.engine.surface(entry.members[0]);
             let (nodes, triangles) = (surface.nodes(), surface.triangles());
-            let file = |end: &str| self.folder.join(stem(self.surface_names, name) + end);
+            let file = |end: &str| self.folder.join(stem(self.entries, entry) + end);
             match format {
                 MeshFormat::Stl => mesh_files::write_stl(&file(".stl"), nodes, &triangles)?,
                 MeshFormat::Obj => mesh_files::write_obj(&file(".obj"), nodes, &triangles)?,
@@ -81,13 +82,5 @@ impl Ending<'_> {
                 SolidPicture { title, nodes, wear_volume, triangles, marks }.to_png()
             }
         }
-    }
-}
-
-/// Name of a surface's files, without their ends.
-pub(crate) fn stem(names: &[String], name: &str) -> String {
-    match names.len() {
-        1 => "surface".to_owned(),
-        _ => format!("surface_{name}"),
     }
 }

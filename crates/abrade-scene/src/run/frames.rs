@@ -2,16 +2,19 @@
 
 use std::path::Path;
 
+use abrade::Nodes;
 use abrade_report::{Mesh, ReportError, Series, vtp};
+use nalgebra::Isometry3;
 
 use crate::build::Built;
 use crate::run::bodies::Bodies;
-use crate::run::ending::stem;
 use crate::run::engine::Engine;
+use crate::run::entries::{Entry, stem};
 
 /// ParaView series.
 pub(crate) struct Frames {
-    surfaces: Vec<Series>,
+    /// A series for every surface; copies share one.
+    surfaces: Vec<(Series, Entry)>,
     bodies: Option<(Series, Vec<Mesh>)>,
     pub(crate) at_end: bool,
 }
@@ -19,7 +22,7 @@ pub(crate) struct Frames {
 impl Frames {
     pub(crate) fn new(
         built: &Built,
-        names: &[String],
+        entries: &[Entry],
         folder: &Path,
         with_bodies: bool,
         at_end: bool,
@@ -31,11 +34,8 @@ impl Frames {
             }
             false => None,
         };
-        Ok(Self {
-            surfaces: names.iter().map(|name| Series::new(folder, &stem(names, name))).collect(),
-            bodies,
-            at_end,
-        })
+        let series = |entry: &Entry| (Series::new(folder, &stem(entries, entry)), entry.clone());
+        Ok(Self { surfaces: entries.iter().map(series).collect(), bodies, at_end })
     }
 
     pub(crate) fn write(
@@ -44,16 +44,10 @@ impl Frames {
         bodies: &Bodies,
         time: f64,
     ) -> Result<(), ReportError> {
-        for (index, series) in self.surfaces.iter_mut().enumerate() {
-            let surface = engine.surface(index);
-            let (path, frame) = (series.next_path(), &bodies.frames[index]);
-            let all = 0..surface.nodes().len();
-            let is_mapped = surface.hardness_factors().is_some();
-            let hardness: Option<Vec<f64>> =
-                is_mapped.then(|| all.map(|i| surface.hardness(i)).collect());
-            let facets = surface.triangles();
-            let nodes = surface.nodes_since_made();
-            vtp::write_surface(&path, &nodes, hardness.as_deref(), frame, &facets)?;
+        for (series, entry) in &mut self.surfaces {
+            let Shown { nodes, hardness, facets } = shown(engine, bodies, &entry.members);
+            let world = Isometry3::identity();
+            vtp::write_surface(&series.next_path(), &nodes, hardness.as_deref(), &world, &facets)?;
             series.push(time);
             series.write()?;
         }
@@ -68,4 +62,34 @@ impl Frames {
         series.push(time);
         series.write()
     }
+}
+
+/// What a file shows of some surfaces, in the world.
+#[derive(Default)]
+struct Shown {
+    nodes: Nodes,
+    /// Of every node [Pa], where it differs from node to node.
+    hardness: Option<Vec<f64>>,
+    facets: Vec<[u32; 3]>,
+}
+
+/// The surfaces of these indices, one after the other.
+fn shown(engine: &dyn Engine, bodies: &Bodies, members: &[usize]) -> Shown {
+    let mut shown = Shown::default();
+    for &index in members {
+        let (surface, frame) = (engine.surface(index), &bodies.frames[index]);
+        let (nodes, before) = (surface.nodes_since_made(), shown.nodes.len() as u32);
+        let facets = surface.triangles();
+        shown.facets.extend(facets.iter().map(|facet| facet.map(|corner| corner + before)));
+        if surface.hardness_factors().is_some() {
+            let all = (0..nodes.len()).map(|node| surface.hardness(node));
+            shown.hardness.get_or_insert_default().extend(all);
+        }
+        let placed = &mut shown.nodes;
+        placed.rest_position.extend(nodes.rest_position.iter().map(|place| frame * place));
+        placed.normal.extend(nodes.normal.iter().map(|normal| frame * normal));
+        placed.rest_area.extend(&nodes.rest_area);
+        placed.depth.extend(&nodes.depth);
+    }
+    shown
 }

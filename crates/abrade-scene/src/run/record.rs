@@ -12,6 +12,7 @@ use crate::check::Checked;
 use crate::run::bodies::Bodies;
 use crate::run::ending::Ending;
 use crate::run::engine::{Engine, Sample, Watch};
+use crate::run::entries::{Entry, entries};
 use crate::run::frames::Frames;
 use crate::run::samples::Course;
 use crate::run::summary::energies;
@@ -38,7 +39,7 @@ pub(crate) struct Recorder {
     /// Energies of encounters that were over when the step began.
     closed: Ledger,
     last_ledgers: Vec<Ledger>,
-    surface_names: Vec<String>,
+    entries: Vec<Entry>,
 }
 
 /// Something that is written every so often.
@@ -56,7 +57,7 @@ impl Recorder {
     ) -> Result<Self, ReportError> {
         let outputs = checked.scene.outputs.clone();
         let energies = outputs.contains(&Output::Energy);
-        let surface_names: Vec<_> = built.surfaces.keys().cloned().collect();
+        let (entries, count) = (entries(checked), built.surfaces.len());
         let mut history = None;
         let mut every_frame = None;
         let mut at_end = false;
@@ -65,8 +66,8 @@ impl Recorder {
                 Output::History { every } => {
                     let columns = Columns {
                         bodies: built.bodies.keys().cloned().collect(),
-                        surfaces: surface_names.clone(),
-                        carriers: moving(built),
+                        surfaces: entries.iter().map(|entry| entry.name.clone()).collect(),
+                        carriers: moving(built, &entries),
                         energies,
                     };
                     let it = History::create(&folder.join("history.csv"), columns)?;
@@ -81,7 +82,7 @@ impl Recorder {
         let frames = match every_frame.is_some() || at_end || with_bodies {
             true => {
                 let every = every_frame.unwrap_or(f64::INFINITY);
-                let it = Frames::new(built, &surface_names, folder, with_bodies, at_end)?;
+                let it = Frames::new(built, &entries, folder, with_bodies, at_end)?;
                 Some(Timed { it, every, next: every })
             }
             false => None,
@@ -95,12 +96,12 @@ impl Recorder {
             frames,
             energies,
             courses: Vec::new(),
-            volumes: vec![0.0; surface_names.len()],
-            depths: vec![0.0; surface_names.len()],
-            carriers: vec![None; surface_names.len()],
+            volumes: vec![0.0; count],
+            depths: vec![0.0; count],
+            carriers: vec![None; count],
             closed: Ledger::default(),
             last_ledgers: vec![Ledger::default(); built.bodies.len()],
-            surface_names,
+            entries,
         })
     }
 
@@ -245,7 +246,10 @@ impl Recorder {
             let carried = carried.map(|(body, state)| body.kinetic_energy(state));
             energies(ledger, bodies, own.sum::<f64>() + carried.sum::<f64>())
         });
-        let carriers: Vec<_> = carriers.into_iter().flatten().collect();
+        let surfaces: Vec<_> =
+            self.entries.iter().map(|entry| together(&surfaces, entry)).collect();
+        let single = self.entries.iter().filter(|entry| !entry.is_copied);
+        let carriers: Vec<_> = single.filter_map(|entry| carriers[entry.members[0]]).collect();
         let Some(history) = &mut self.history else { return Ok(()) };
         history.it.push(&Row {
             time: self.time + at,
@@ -284,7 +288,7 @@ impl Recorder {
         let ending = Ending {
             folder: &self.folder,
             title: &self.title,
-            surface_names: &self.surface_names,
+            entries: &self.entries,
             engine,
             bodies,
         };
@@ -292,10 +296,22 @@ impl Recorder {
     }
 }
 
-/// Names of the surfaces that move.
-fn moving(built: &Built) -> Vec<String> {
-    let moves = built.surfaces.iter().filter(|(_, surface)| surface.carrier.is_some());
-    moves.map(|(name, _)| name.clone()).collect()
+/// Names of the surfaces that move; copies have no columns for their motion.
+fn moving(built: &Built, entries: &[Entry]) -> Vec<String> {
+    let moves = |entry: &&Entry| {
+        !entry.is_copied && built.surfaces.get(&entry.name).is_some_and(|s| s.carrier.is_some())
+    };
+    entries.iter().filter(moves).map(|entry| entry.name.clone()).collect()
+}
+
+/// The row of an entry: of copies the sum of their volumes and the largest depth.
+fn together(surfaces: &[SurfaceRow], entry: &Entry) -> SurfaceRow {
+    let members = entry.members.iter().map(|&index| surfaces[index]);
+    let none = SurfaceRow { wear_volume: 0.0, max_depth: 0.0 };
+    members.fold(none, |sum, row| SurfaceRow {
+        wear_volume: sum.wear_volume + row.wear_volume,
+        max_depth: sum.max_depth.max(row.max_depth),
+    })
 }
 
 /// Passes contact steps to the recordings and to what the run remembers of its bodies.

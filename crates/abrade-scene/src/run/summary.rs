@@ -12,6 +12,7 @@ use crate::carrier::BuiltCarrier;
 use crate::check::Checked;
 use crate::run::bodies::{Bodies, Track};
 use crate::run::engine::Engine;
+use crate::run::entries::entries;
 use crate::run::stop::End;
 use crate::run::{Precision, RunError};
 use crate::scene::Output;
@@ -133,21 +134,23 @@ fn error_estimate(energy: Option<&EnergySummary>) -> ErrorEstimate {
 
 fn warnings(run: &Run<'_>) -> Vec<String> {
     let mut warnings = run.checked.notes.clone();
-    for (index, (name, scene)) in run.checked.scene.surfaces.iter().enumerate() {
-        let worn = run.engine.surface(index).worn();
-        let touching = worn.peak_touching;
-        if touching > 0 && touching < FEW_NODES {
-            let cure = match scene.elastic {
-                ElasticLaw::HertzNodes { .. } => {
-                    "the result depends on where the body lands between the nodes; average over \
-                     landings, or take `elastic: Foundation()` and a finer pitch"
-                }
-                _ => "the result depends on the lattice; take a finer pitch",
-            };
-            warnings.push(format!(
-                "the largest contact on `{name}` was carried by {touching} nodes: {cure}"
-            ));
-        }
+    let scenes: Vec<_> = run.checked.scene.surfaces.iter().collect();
+    for entry in entries(run.checked) {
+        let touching =
+            entry.members.iter().map(|&i| (run.engine.surface(i).worn().peak_touching, i));
+        let least = touching.filter(|(touching, _)| (1..FEW_NODES).contains(touching)).min();
+        let Some((touching, index)) = least else { continue };
+        let (name, scene) = scenes[index];
+        let cure = match scene.elastic {
+            ElasticLaw::HertzNodes { .. } => {
+                "the result depends on where the body lands between the nodes; average over \
+                 landings, or take `elastic: Foundation()` and a finer pitch"
+            }
+            _ => "the result depends on the lattice; take a finer pitch",
+        };
+        warnings.push(format!(
+            "the largest contact on `{name}` was carried by {touching} nodes: {cure}"
+        ));
     }
     for (what, why, count) in &run.bodies.refused {
         warnings.push(format!("{what} was left to the engine in {count} steps, unworn: {why}"));

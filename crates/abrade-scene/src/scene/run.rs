@@ -68,14 +68,15 @@ pub enum Resolve {
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Output {
-    /// `history.csv`: motion, force and wear over time.
+    /// `history.csv`: motion, force and wear over time; of copies the wear of all together.
     History {
         /// Time between lines [s].
         #[serde(deserialize_with = "quantity::time")]
         #[schemars(with = "Quantity")]
         every: f64,
     },
-    /// `surface_NNNN.vtp` and `surface.pvd`: the worn surface, at the end unless `every` is given.
+    /// `surface_NNNN.vtp` and `surface.pvd`: the worn surface, at the end unless `every` is given;
+    /// copies of one are in one file.
     Surface {
         /// At which moment.
         #[serde(default)]
@@ -88,13 +89,13 @@ pub enum Output {
     /// `bodies.pvd`: the bodies at the instants of `Surface`.
     Bodies,
     /// `surface.stl` or `surface.obj`: the facets of the worn surface at the end, in its frame [m];
-    /// closed for a solid, a sheet for a plate.
+    /// closed for a solid, a sheet for a plate; of copies the first.
     Mesh {
         /// Format of the file.
         format: MeshFormat,
     },
     /// `surface.png`: plan view and cross-section of a worn plate; a worn solid from the side of
-    /// its deepest node.
+    /// its deepest node; of copies the first.
     Picture,
     /// The energy ledger, in the summary.
     Energy,

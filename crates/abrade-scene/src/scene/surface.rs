@@ -5,7 +5,7 @@ use abrade::{ElasticLaw, FlowLaw, Lateral, Removal};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{Geometry, HardnessMap, Region, Rotation, vectors};
+use super::{Copies, Geometry, HardnessMap, Region, Rotation, vectors};
 
 /// A surface that wears.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -44,6 +44,10 @@ pub struct SceneSurface {
     /// How the surface's frame is turned in the world (default: not at all).
     #[serde(default)]
     pub rotation: Rotation,
+    /// Copies of a free surface (default: none but itself). Files show them together: one ParaView
+    /// file, one set of history columns; a picture and a mesh file are of the first one.
+    #[serde(default)]
+    pub copies: Option<Copies>,
 }
 
 /// How a surface moves. Directions count in world axes.

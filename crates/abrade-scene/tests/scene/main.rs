@@ -2,6 +2,7 @@
 
 mod build;
 mod closed;
+mod copies;
 mod extremes;
 mod moving;
 mod words;
