@@ -15,11 +15,15 @@ use crate::view::WorldView;
 use crate::wall;
 
 /// Parts of a pitch that a striker flies between two looks at whether it has touched, and parts of a
-/// period of its springs between two looks at whether it has parted.
+/// period of its springs, if that is shorter, between two looks at whether it has parted.
 const FLIGHT: f64 = 0.25;
 const PERIOD: f64 = 0.25;
+/// Pitches beyond where it should have touched at which a striker has missed.
+const MISS: f64 = 1.0;
 /// Looks after which a collision is given up: a striker that slides on for long.
 const LOOKS: u32 = 400;
+/// Steps after which a collision is given up: a striker that is wedged in.
+const STEPS: u64 = 2000;
 /// Steps back of a striker that Rapier has left inside what it strikes.
 const LIFTS: usize = 60;
 /// Clearance of a striker at its start, in pitches.
@@ -33,6 +37,8 @@ pub(crate) struct Striker {
     body: Body,
     /// Unit normal along which it flies.
     down: Vector3<f64>,
+    /// Where Rapier left it.
+    left: Point3<f64>,
 }
 
 /// What a collision did.
@@ -71,12 +77,13 @@ impl Striker {
             let (mut body, skin) = Self::body(colliders[strikes], skin, worn, &pose)?;
             let down = pose.inverse_transform_vector(&(blow.normal * towards));
             let sliding = pose.inverse_transform_vector(&blow.sliding) * -towards;
+            let left = body.state.position;
             let back = blow.overlap.max(0.0) + CLEAR * worn.surface.pitch();
             body.state.position -= down * back;
             body.state.velocity = down * blow.speed() + sliding;
             body.inertia = Inertia { mass: blow.mass, tensor: Matrix3::identity() };
             let skin = own[strikes].map(SurfaceId).zip(skin);
-            Some(Self { stands: SurfaceId(own[stands]?), skin, body, down })
+            Some(Self { stands: SurfaceId(own[stands]?), skin, body, down, left })
         })
     }
 
@@ -153,25 +160,35 @@ impl Striker {
         outcome: &mut Outcome,
     ) -> Result<(), PhysicsError> {
         let fly = FLIGHT * placed[0].surface.pitch() / blow.speed();
+        // What misses, or is turned aside, would fly on into something else.
+        let far = sunk(&placed[0]) + MISS * placed[0].surface.pitch();
         let mut touched = false;
         for _ in 0..LOOKS {
-            let time = if touched { PERIOD * encounter.period() } else { fly };
+            let time = if touched { fly.min(PERIOD * encounter.period()) } else { fly };
             let (loads, until) = (Loads::default(), Until::FirstExit);
             let done = encounter.advance(&mut self.body, placed, &loads, time, until, &mut ())?;
             outcome.steps += done.steps;
             outcome.node_evaluations += done.node_evaluations;
             outcome.contact_time += done.contact_time;
             touched |= done.contact_time > 0.0;
-            let leaves = self.body.state.velocity.dot(&self.down) <= 0.0;
-            if done.exited || touched && leaves && !encounter.in_contact() {
+            let beyond = (self.body.state.position - self.left).dot(&self.down) > far;
+            let leaves = touched && self.body.state.velocity.dot(&self.down) <= 0.0;
+            let apart = !encounter.in_contact() && (leaves || beyond);
+            if done.exited || apart {
                 break;
             }
-            if outcome.steps > step_limit {
+            if outcome.steps > step_limit.min(STEPS) {
                 return Err(PhysicsError::TooManySteps { steps: outcome.steps });
             }
         }
         Ok(())
     }
+}
+
+/// How much deeper than their colliders two surfaces that meet may lie [m].
+fn sunk(placed: &Placed<'_>) -> f64 {
+    let skin = placed.skin.as_ref().map_or(0.0, |skin| skin.surface.worn().max_depth);
+    placed.surface.worn().max_depth + skin
 }
 
 /// Moves a striker back until it is clear of what it strikes.
