@@ -102,3 +102,24 @@ fn grit_meets_the_outer_wall_of_an_elbow_where_straight_flight_does() {
     let within = |[angle, y]: &[f64; 2]| (13.0..47.0).contains(angle) && *y < 6.8e-3;
     assert!(angles.len() > 10 && angles.iter().all(within), "{angles:?}");
 }
+
+/// Fails for balls that strike without wear, for a liner that stands, for balls that get through it,
+/// and for collisions that make energy.
+#[test]
+fn liner_and_balls_of_a_mill_wear_each_other() {
+    let summary = run("closed/ball_mill.ron", &["run.stop.limit=150 ms".to_owned()]);
+    let surfaces = summary["surfaces"].as_object().expect("surfaces");
+    let balls: Vec<&String> = surfaces.keys().filter(|name| name.starts_with("balls_")).collect();
+    assert_eq!(balls.len(), 64);
+    let worn = |name: &str| at(&summary, &format!("surfaces.{name}.wear_volume_m3"));
+    let off_balls: f64 = balls.iter().map(|name| worn(name)).sum();
+    assert!(worn("liner") > 1e-10 && off_balls > 1e-9, "{:e} {off_balls:e}", worn("liner"));
+    for ball in balls {
+        let place = |axis| at(&summary, &format!("surfaces.{ball}.motion.position_m.{axis}"));
+        let out = place(0).hypot(place(1));
+        assert!(out < 0.15 && place(2).abs() < 0.025, "{ball}: {out} {}", place(2));
+    }
+    assert!(at(&summary, "resolver.collision") > 100.0);
+    let [wear, numerical] = ["wear_J", "numerical_J"].map(|k| at(&summary, &format!("energy.{k}")));
+    assert!(numerical.abs() < 5e-3 * wear, "{numerical:e} of {wear:e}");
+}
