@@ -6,7 +6,7 @@
 //! surface: an encounter can begin wherever Rapier has left the two.
 
 use abrade::{Carrier, Inertia, Loads};
-use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Point3};
 use rapier::dynamics::{MassProperties, RigidBody, RigidBodyHandle};
 use rapier::geometry::{Collider, ColliderSet, SharedShape};
 use rapier::math::Vector;
@@ -169,7 +169,7 @@ impl Left {
     /// The same in the frame of the collider, for Rapier.
     fn mass_properties(&self, proxy: &Collider) -> MassProperties {
         let local = proxy.position_wrt_parent().map_or_else(Isometry3::identity, scalar::pose);
-        let (moments, axes) = principal(&self.inertia.tensor);
+        let (moments, axes) = self.inertia.principal();
         MassProperties::with_principal_inertia_frame(
             scalar::to_vector(&(local.inverse() * self.centre).coords),
             scalar::narrow(self.inertia.mass),
@@ -177,17 +177,6 @@ impl Left {
             scalar::to_rotation(&(local.rotation.inverse() * axes)),
         )
     }
-}
-
-/// Principal moments of inertia [kg m2], and the turn of their axes.
-fn principal(tensor: &Matrix3<f64>) -> (Vector3<f64>, UnitQuaternion<f64>) {
-    let eigen = tensor.symmetric_eigen();
-    let mut axes = eigen.eigenvectors;
-    if axes.determinant() < 0.0 {
-        axes.column_mut(0).neg_mut();
-    }
-    let turn = Rotation3::from_matrix_unchecked(axes);
-    (eigen.eigenvalues, UnitQuaternion::from_rotation_matrix(&turn))
 }
 
 /// What stands for the worn solid in place of the shape of `proxy`; None where that has to stay.

@@ -1,6 +1,6 @@
 //! A rigid body: shape, inertia, state. Its frame has its origin at the centre of mass.
 
-use nalgebra::{Isometry3, Matrix3, Point3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use crate::shape::Shape;
 #[cfg(feature = "state")]
@@ -101,6 +101,18 @@ impl Inertia {
     /// that something else leads in a straight line.
     pub fn immovable() -> Self {
         Self { mass: f64::INFINITY, tensor: Matrix3::identity() }
+    }
+
+    /// Principal moments of inertia [kg m2], and the turn from their axes to those of the tensor.
+    pub fn principal(&self) -> (Vector3<f64>, UnitQuaternion<f64>) {
+        let eigen = self.tensor.symmetric_eigen();
+        let mut axes = eigen.eigenvectors;
+        if axes.determinant() < 0.0 {
+            axes.column_mut(0).neg_mut();
+        }
+        // Directly: nalgebra's search for the nearest rotation does not end for some half turns.
+        let turn = Rotation3::from_matrix_unchecked(axes);
+        (eigen.eigenvalues, UnitQuaternion::from_rotation_matrix(&turn))
     }
 
     /// True for a body that nothing moves.

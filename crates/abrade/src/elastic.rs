@@ -1,6 +1,7 @@
 //! Elastic part of a node's contact: normal force and tangential spring.
 
 use crate::laws::{ElasticLaw, HertzConvention};
+use crate::material::Material;
 use crate::shape::Piece;
 use crate::surface::Surface;
 
@@ -122,11 +123,15 @@ pub(crate) fn coefficient_of_two(surface: &Surface, other: &Surface) -> f64 {
     }
 }
 
+/// E / (1 - nu^2) [Pa]; zero for a material without a modulus.
+fn plane_strain(material: &Material) -> f64 {
+    material.young.unwrap_or(0.0) / (1.0 - material.poisson * material.poisson)
+}
+
 /// k_w [Pa/m] calibrated for a striker of the reference `radius` [m].
 fn calibrated(surface: &Surface, radius: f64) -> f64 {
     let material = &surface.laws.material;
-    let young = material.young.unwrap_or(0.0);
-    let plane_strain = young / (1.0 - material.poisson * material.poisson);
+    let plane_strain = plane_strain(material);
     // On a solid that is smaller than the striker, the contact is as small as the solid.
     let radius = radius.min(surface.size());
     let pi = std::f64::consts::PI;
@@ -140,8 +145,7 @@ fn calibrated(surface: &Surface, radius: f64) -> f64 {
 pub(crate) fn coefficient(surface: &Surface, piece: &Piece) -> f64 {
     let laws = &surface.laws;
     let material = &laws.material;
-    let young = material.young.unwrap_or(0.0);
-    let plane_strain = young / (1.0 - material.poisson * material.poisson);
+    let plane_strain = plane_strain(material);
     match laws.elastic {
         ElasticLaw::Foundation { stiffness: Some(stiffness) } => stiffness,
         ElasticLaw::Foundation { stiffness: None } => calibrated(surface, reference_radius(piece)),
@@ -171,7 +175,6 @@ fn reference_radius(piece: &Piece) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::Material;
     use crate::mesh::TriangleMesh;
     use crate::shape::Ball;
     use crate::surface::SurfaceLaws;

@@ -114,6 +114,9 @@ impl WearWorld {
     /// Lets the crowded surfaces wear by what their contacts bore.
     pub(crate) fn collide(&mut self, world: &WorldView<'_>) {
         let mut crowded = std::mem::take(&mut self.current.crowded);
+        if crowded.is_empty() {
+            return self.bores.clear();
+        }
         crowded.sort_by_key(|(surface, _)| *surface);
         crowded.dedup_by_key(|(surface, _)| *surface);
         let mut met = BTreeMap::new();

@@ -12,7 +12,7 @@ use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 const RADIUS: f64 = 0.01;
 const DENSITY: f64 = 2500.0;
 
-fn laws() -> SurfaceLaws {
+pub fn laws() -> SurfaceLaws {
     let material = Material {
         hardness: 1e8,
         shear_ratio: 0.25,

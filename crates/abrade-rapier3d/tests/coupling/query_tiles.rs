@@ -1,7 +1,8 @@
 //! Tiles of query colliders: only those near what has worn are made anew, and there is nothing
 //! between them.
 
-use crate::plugin::abrade::{HexStrip, Material, Surface, SurfaceLaws, TriangleMesh};
+use super::closed::laws;
+use crate::plugin::abrade::{HexStrip, Surface, TriangleMesh};
 use crate::plugin::rapier::math::Vector;
 use crate::plugin::rapier::prelude::*;
 use crate::plugin::{SurfaceId, WearSettings, WearWorld, scalar};
@@ -11,17 +12,6 @@ const BALL: f64 = 0.01;
 const SPHERE: f64 = 0.05;
 /// Shares of a pitch by which a ray falls beside a node: one on an edge may slip between triangles.
 const BESIDE: f64 = 0.01;
-
-fn laws() -> SurfaceLaws {
-    let material = Material {
-        hardness: 1e8,
-        shear_ratio: 0.25,
-        young: Some(1e10),
-        poisson: 0.3,
-        friction: 0.3,
-    };
-    SurfaceLaws::of(material)
-}
 
 /// A world with one wear surface whose top is at the height `top` [m] in its frame.
 struct Scene {

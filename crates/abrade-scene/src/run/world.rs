@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use abrade::{Body, Drive, Driven, Ledger, Piece, State, Surface, Until};
-use nalgebra::{Isometry3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Vector3};
 
 use super::plug;
 use super::plug::rapier::dynamics::{MassProperties, RigidBodyBuilder, RigidBodyHandle};
@@ -315,18 +315,11 @@ fn carrier_body(carrier: &BuiltCarrier, pose: &Isometry3<f64>) -> RigidBodyBuild
     let builder = match &carrier.inertia {
         None => RigidBodyBuilder::kinematic_velocity_based(),
         Some(inertia) => {
-            let axes = inertia.tensor.symmetric_eigen();
-            let mut turn = axes.eigenvectors;
-            if turn.determinant() < 0.0 {
-                turn.column_mut(0).neg_mut();
-            }
-            // Directly: nalgebra's search for the nearest rotation does not end for some half turns.
-            let turn = Rotation3::from_matrix_unchecked(turn);
-            let turn = UnitQuaternion::from_rotation_matrix(&turn);
+            let (moments, turn) = inertia.principal();
             let properties = MassProperties::with_principal_inertia_frame(
                 scalar::to_vector(&carrier.centre_local.coords),
                 scalar::narrow(inertia.mass),
-                scalar::to_vector(&axes.eigenvalues),
+                scalar::to_vector(&moments),
                 scalar::to_rotation(&turn),
             );
             RigidBodyBuilder::dynamic().additional_mass_properties(properties)
