@@ -25,8 +25,8 @@ pub(crate) struct Spring {
     pub overlap: f64,
     /// |T| [N].
     pub tangential_force: f64,
-    /// Lateral load less its cap [N].
-    pub lateral_excess: f64,
+    /// Of a law with two gates.
+    pub excess: Excess,
     /// Force along minus the node's normal [N].
     pub normal_load: f64,
     /// Drops of the step [m].
@@ -43,6 +43,14 @@ impl Spring {
             *self = Self::default();
         }
     }
+}
+
+/// Loads of a node less their caps [N].
+#[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Excess {
+    pub normal: f64,
+    pub lateral: f64,
 }
 
 /// Parts of a step's drop [m].
@@ -276,7 +284,7 @@ pub(crate) fn resolve<E: Elastic, Q: Query, F: Flow>(
         stretch: loaded.stretch,
         overlap: loaded.touch.overlap.max(f64::MIN_POSITIVE),
         tangential_force: loaded.tangential_force,
-        lateral_excess: flow.lateral_excess(node.area, &loaded),
+        excess: flow.excess(node.area, &loaded),
         normal_load: loaded.normal_load,
         drop,
         attack: m.dot(&node.heading),
@@ -307,10 +315,10 @@ fn transport(stretch: &Vector3<f64>, m: &Vector3<f64>) -> Vector3<f64> {
 #[cfg(feature = "state")]
 impl Spring {
     pub(crate) fn is_finite(&self) -> bool {
-        let Self { overlap, tangential_force, lateral_excess, normal_load, attack, .. } = self;
+        let Self { overlap, tangential_force, excess, normal_load, attack, .. } = self;
         let Drop { normal, lateral } = &self.drop;
-        let numbers =
-            [overlap, tangential_force, lateral_excess, normal_load, attack, normal, lateral];
-        finite(numbers.into_iter().chain(self.stretch.iter())) && *overlap >= 0.0
+        let numbers = [overlap, tangential_force, normal_load, attack, normal, lateral];
+        let numbers = numbers.into_iter().chain([&excess.normal, &excess.lateral]);
+        finite(numbers.chain(self.stretch.iter())) && *overlap >= 0.0
     }
 }
