@@ -20,6 +20,9 @@ pub(crate) enum Command {
     Run(RunArguments),
     /// Check a scene and say how large it is; nothing is run, nothing is written.
     Check(SceneArguments),
+    /// Make a study: many runs of a scene, compared.
+    #[command(subcommand)]
+    Study(StudyCommand),
     /// Look over a clump file, or convert it.
     Clump(ClumpArguments),
     /// Print the JSON schema of a scene, or its field reference.
@@ -50,6 +53,61 @@ pub(crate) struct RunArguments {
     /// Print the summary file's content, and nothing else.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// What a study asks.
+#[derive(Subcommand)]
+pub(crate) enum StudyCommand {
+    /// How the error falls with the run time: runs the scene at ladders of accuracy, pitch, engine
+    /// precision and step, resolver and stiffness, and compares each with the finest run.
+    Convergence(ConvergenceArguments),
+}
+
+/// Arguments of `study convergence`.
+#[derive(Args)]
+pub(crate) struct ConvergenceArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Folder for the results [default: runs/<scene name>, convergence].
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// What to vary; may be repeated [default: everything].
+    #[arg(long, value_enum, value_name = "WHAT")]
+    pub(crate) vary: Vec<Vary>,
+    /// Places in the cell of a plate's lattice that every setting starts from; errors are root mean
+    /// squares over them.
+    #[arg(long, value_name = "COUNT", default_value_t = 4,
+          value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(crate) landings: u32,
+    /// Seconds after which no finer setting is begun.
+    #[arg(long, value_name = "SECONDS", default_value_t = 120.0, value_parser = above_zero)]
+    pub(crate) budget: f64,
+    /// Compare with this `summary.json`, or part of one, in the place of the finest run.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) reference: Option<PathBuf>,
+}
+
+/// What a study of convergence varies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Vary {
+    /// The target of the time error.
+    Accuracy,
+    /// The distance of the nodes.
+    Pitch,
+    /// Pitch and accuracy together.
+    Both,
+    /// The target of the time error, with an engine in f32.
+    Precision,
+    /// The step of the engine and the resolver.
+    Step,
+    /// The stiffness of the elastic law.
+    Stiffness,
+}
+
+/// A finite number above zero.
+fn above_zero(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|x| x.is_finite() && *x > 0.0);
+    number.ok_or_else(|| "expected a number above zero".to_owned())
 }
 
 /// Floating-point numbers of the engine; wear is always computed in f64.

@@ -10,6 +10,7 @@ mod check;
 mod clump;
 mod digest;
 mod failure;
+mod interrupt;
 mod output_folder;
 mod progress;
 mod quantity_text;
@@ -17,17 +18,19 @@ mod render;
 mod run;
 mod say;
 mod schema;
+mod study;
 
 use std::process::ExitCode;
 
 use clap::Parser;
 
-use arguments::{Arguments, Command};
+use arguments::{Arguments, Command, StudyCommand};
 
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
+        Command::Study(StudyCommand::Convergence(arguments)) => study::convergence(&arguments),
         Command::Clump(arguments) => clump::clump(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
     };

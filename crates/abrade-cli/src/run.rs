@@ -1,24 +1,18 @@
 //! `abrade run`.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use abrade_scene::{Outcome, RunOptions};
 
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
 use crate::progress::Bar;
-use crate::{digest, output_folder, say};
+use crate::{digest, interrupt, output_folder, say};
 
 /// Loads and checks the scene, makes sure of its folder, runs it and says what came of it.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let checked = abrade_scene::load(&arguments.scene.scene, &arguments.scene.sets)?;
     let folder = output_folder::chosen(arguments.out.as_deref(), &checked.scene.name);
     output_folder::probe(&folder)?;
-    let stop = Arc::new(AtomicBool::new(false));
-    let seen = Arc::clone(&stop);
-    // Without a handler an interrupt ends the process as it always did.
-    let _ = ctrlc::set_handler(move || seen.store(true, Ordering::Relaxed));
+    let stop = interrupt::flag();
     let options = RunOptions { folder, precision: arguments.precision.into() };
     let mut bar = Bar::new(&stop);
     let outcome = abrade_scene::run(&checked, &options, &mut bar);

@@ -7,6 +7,7 @@
 #![warn(missing_docs)]
 
 pub mod atomic;
+pub mod chart;
 mod error;
 pub mod history;
 mod mesh;

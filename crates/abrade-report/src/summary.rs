@@ -88,6 +88,9 @@ pub struct SurfaceSummary {
     pub max_depth: f64,
     /// Nodes with a depth above zero.
     pub worn_nodes: usize,
+    /// Largest number of nodes that a body touched at once.
+    #[serde(default)]
+    pub touching_nodes: usize,
     /// Largest total force along minus the normals [N].
     #[serde(rename = "peak_normal_force_N")]
     pub peak_normal_force: f64,
@@ -223,6 +226,7 @@ impl SurfaceSummary {
             chip_volume: worn.chip,
             max_depth: nodes.depth.iter().copied().fold(0.0, f64::max),
             worn_nodes: nodes.depth.iter().filter(|depth| **depth > 0.0).count(),
+            touching_nodes: worn.peak_touching,
             peak_normal_force: worn.peak_normal_force,
             indented_area: worn.indented_area,
             wear_rate: None,

@@ -9,10 +9,10 @@ use super::letters::Fonts;
 use crate::error::ReportError;
 
 /// Sheet pixels per picture pixel.
-pub(super) const SCALE: usize = 2;
+pub(crate) const SCALE: usize = 2;
 
 /// The sheet.
-pub(super) struct Canvas {
+pub(crate) struct Canvas {
     size: [usize; 2],
     pixels: Vec<u8>,
     fonts: Fonts,
@@ -20,27 +20,27 @@ pub(super) struct Canvas {
 
 /// A part of the picture [pixels].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Rect {
-    pub(super) left: f64,
-    pub(super) right: f64,
-    pub(super) top: f64,
-    pub(super) bottom: f64,
+pub(crate) struct Rect {
+    pub(crate) left: f64,
+    pub(crate) right: f64,
+    pub(crate) top: f64,
+    pub(crate) bottom: f64,
 }
 
 /// How a text looks.
 #[derive(Clone, Copy)]
-pub(super) struct Text {
-    pub(super) size: f64,
-    pub(super) bold: bool,
-    pub(super) colour: Rgb,
-    pub(super) align: Align,
+pub(crate) struct Text {
+    pub(crate) size: f64,
+    pub(crate) bold: bool,
+    pub(crate) colour: Rgb,
+    pub(crate) align: Align,
     /// Read from below.
-    pub(super) upright: bool,
+    pub(crate) upright: bool,
 }
 
 /// Which end of a text is placed; up and down it is the middle of a capital.
 #[derive(Clone, Copy)]
-pub(super) enum Align {
+pub(crate) enum Align {
     Left,
     Centre,
     Right,
@@ -54,14 +54,14 @@ impl Default for Text {
 
 impl Canvas {
     /// A white sheet for a picture of this size.
-    pub(super) fn new(width: usize, height: usize) -> Result<Self, ReportError> {
+    pub(crate) fn new(width: usize, height: usize) -> Result<Self, ReportError> {
         let size = [width * SCALE, height * SCALE];
         let pixels = vec![255; size[0] * size[1] * 3];
         Ok(Self { size, pixels, fonts: Fonts::load()? })
     }
 
     /// Sets the sheet's own pixels inside `rect`, row by row; `None` leaves one as it is.
-    pub(super) fn paint(&mut self, rect: &Rect, pixel: impl Fn(usize, usize) -> Option<Rgb>) {
+    pub(crate) fn paint(&mut self, rect: &Rect, pixel: impl Fn(usize, usize) -> Option<Rgb>) {
         let [left, top] = [sheet(rect.left) as usize, sheet(rect.top) as usize];
         let [width, height] = rect.sheet_size();
         for row in 0..height {
@@ -74,7 +74,7 @@ impl Canvas {
         }
     }
 
-    pub(super) fn line(
+    pub(crate) fn line(
         &mut self,
         points: &[[f64; 2]],
         colour: Rgb,
@@ -85,12 +85,12 @@ impl Canvas {
         self.draw(|area| area.draw(&PathElement::new(points, style)))
     }
 
-    pub(super) fn fill(&mut self, corners: &[[f64; 2]], colour: Rgb) -> Result<(), ReportError> {
+    pub(crate) fn fill(&mut self, corners: &[[f64; 2]], colour: Rgb) -> Result<(), ReportError> {
         let corners: Vec<_> = corners.iter().map(|p| (sheet(p[0]), sheet(p[1]))).collect();
         self.draw(|area| area.draw(&Polygon::new(corners, rgb(colour).filled())))
     }
 
-    pub(super) fn dot(
+    pub(crate) fn dot(
         &mut self,
         at: [f64; 2],
         radius: f64,
@@ -100,13 +100,13 @@ impl Canvas {
         self.draw(|area| area.draw(&Circle::new(at, sheet(radius), rgb(colour).filled())))
     }
 
-    pub(super) fn frame(&mut self, rect: &Rect, colour: Rgb) -> Result<(), ReportError> {
+    pub(crate) fn frame(&mut self, rect: &Rect, colour: Rgb) -> Result<(), ReportError> {
         let Rect { left, right, top, bottom } = *rect;
         let corners = [[left, top], [right, top], [right, bottom], [left, bottom], [left, top]];
         self.line(&corners, colour, 1.0)
     }
 
-    pub(super) fn text(&mut self, at: [f64; 2], text: &str, look: Text) {
+    pub(crate) fn text(&mut self, at: [f64; 2], text: &str, look: Text) {
         let size = look.size * SCALE as f64;
         let width = self.fonts.width(text, size, look.bold);
         let back = match look.align {
@@ -129,7 +129,7 @@ impl Canvas {
     }
 
     /// `text`, cut to `width` pixels.
-    pub(super) fn fitted(&self, text: &str, look: Text, width: f64) -> String {
+    pub(crate) fn fitted(&self, text: &str, look: Text, width: f64) -> String {
         let fits = |text: &str| self.fonts.width(text, look.size, look.bold) <= width;
         let mut kept = text.to_owned();
         let mut line = kept.clone();
@@ -140,7 +140,7 @@ impl Canvas {
     }
 
     /// The finished picture as PNG.
-    pub(super) fn to_png(&self) -> Result<Vec<u8>, ReportError> {
+    pub(crate) fn to_png(&self) -> Result<Vec<u8>, ReportError> {
         let [width, height] = self.size.map(|side| side / SCALE);
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, width as u32, height as u32);
@@ -179,16 +179,16 @@ impl Canvas {
 }
 
 impl Rect {
-    pub(super) fn width(&self) -> f64 {
+    pub(crate) fn width(&self) -> f64 {
         self.right - self.left
     }
 
-    pub(super) fn height(&self) -> f64 {
+    pub(crate) fn height(&self) -> f64 {
         self.bottom - self.top
     }
 
     /// Columns and rows of the sheet inside.
-    pub(super) fn sheet_size(&self) -> [usize; 2] {
+    pub(crate) fn sheet_size(&self) -> [usize; 2] {
         [self.width(), self.height()].map(|side| (side * SCALE as f64).round() as usize)
     }
 }

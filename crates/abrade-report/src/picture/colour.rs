@@ -3,17 +3,17 @@
 //! equal differences of depth look equally different, also in print and to the colour-blind.
 
 /// Red, green, blue, 0 to 255.
-pub(super) type Rgb = [u8; 3];
+pub(crate) type Rgb = [u8; 3];
 
-pub(super) const WHITE: Rgb = [255, 255, 255];
+pub(crate) const WHITE: Rgb = [255, 255, 255];
 /// Text and axes.
-pub(super) const INK: Rgb = [34, 38, 45];
+pub(crate) const INK: Rgb = [34, 38, 45];
 /// Text of less weight.
-pub(super) const SOFT: Rgb = [92, 98, 108];
+pub(crate) const SOFT: Rgb = [92, 98, 108];
 /// A surface that nothing touched.
-pub(super) const UNTOUCHED: Rgb = [233, 234, 237];
+pub(crate) const UNTOUCHED: Rgb = [233, 234, 237];
 /// The material below a cross-section.
-pub(super) const BODY: Rgb = [214, 217, 222];
+pub(crate) const BODY: Rgb = [214, 217, 222];
 
 /// `over` laid on `under` with the opacity `share`.
 pub(super) fn blend(under: Rgb, over: Rgb, share: f64) -> Rgb {

@@ -8,8 +8,8 @@
 
 mod axis;
 mod camera;
-mod canvas;
-mod colour;
+pub(crate) mod canvas;
+pub(crate) mod colour;
 mod letters;
 mod plan;
 mod raster;

@@ -1,0 +1,62 @@
+//! `abrade study`.
+
+use abrade_study::StudyError;
+use abrade_study::convergence::{Plan, Variant, convergence as study};
+
+use crate::arguments::{ConvergenceArguments, Vary};
+use crate::failure::Failure;
+use crate::progress::Bar;
+use crate::{interrupt, output_folder, say};
+
+/// Runs the scene at ladders of settings and says what came of it.
+pub(crate) fn convergence(arguments: &ConvergenceArguments) -> Result<(), Failure> {
+    let scene = &arguments.scene;
+    let checked = abrade_scene::load(&scene.scene, &scene.sets)?;
+    let name = format!("{}, convergence", checked.scene.name);
+    let folder = output_folder::chosen(arguments.out.as_deref(), &name);
+    output_folder::probe(&folder)?;
+    let plan = Plan {
+        variants: variants(&arguments.vary),
+        landings: arguments.landings,
+        budget: arguments.budget,
+        reference: arguments.reference.clone(),
+        folder,
+    };
+    let stop = interrupt::flag();
+    let mut bar = Bar::new(&stop);
+    let study = study(&scene.scene, &scene.sets, &plan, &mut bar);
+    bar.clear();
+    let study = study.map_err(failure)?;
+    let place = plan.folder.display();
+    say::say(&format!("{}\nstudy.csv and study.png are in {place}\n", study.table()))?;
+    match study.interrupted {
+        true => Err(Failure::Interrupted),
+        false => Ok(()),
+    }
+}
+
+fn variants(vary: &[Vary]) -> Vec<Variant> {
+    let wanted = |variant: &Variant| {
+        let vary_by = match variant {
+            Variant::Accuracy => Vary::Accuracy,
+            Variant::Pitch => Vary::Pitch,
+            Variant::Both => Vary::Both,
+            Variant::Single => Vary::Precision,
+            Variant::Step(_) => Vary::Step,
+            Variant::Stiffness => Vary::Stiffness,
+        };
+        vary.is_empty() || vary.contains(&vary_by)
+    };
+    Variant::ALL.into_iter().filter(wanted).collect()
+}
+
+fn failure(error: StudyError) -> Failure {
+    match error {
+        StudyError::Scene(error) => error.into(),
+        StudyError::Interrupted => Failure::Interrupted,
+        StudyError::Reference { .. } => Failure::Input(error.into()),
+        StudyError::Run(_) | StudyError::Report(_) | StudyError::Nothing { .. } => {
+            Failure::Run(error.into())
+        }
+    }
+}

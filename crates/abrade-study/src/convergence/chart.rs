@@ -1,0 +1,33 @@
+//! The study as `study.png`: error against wall time.
+
+use std::path::Path;
+
+use abrade_report::chart::{Chart, Series};
+
+use crate::convergence::Study;
+use crate::convergence::compare::Curve;
+use crate::convergence::fit::ROUND_OFF;
+use crate::error::StudyError;
+
+/// Draws one curve per variant whose runs differ by more than rounding.
+pub(crate) fn write(study: &Study, path: &Path) -> Result<(), StudyError> {
+    let series: Vec<Series> = study.curves.iter().map(series).collect();
+    let chart = Chart {
+        title: &study.scene,
+        caption: "error of the wear volume, each curve against its own finest run",
+        x: "wall time of a run (s)",
+        y: "relative error (-)",
+        series: &series,
+    };
+    Ok(chart.write(path)?)
+}
+
+fn series(curve: &Curve) -> Series {
+    let rows = curve.rows.iter().filter(|row| row.failure.is_none());
+    let points = rows.filter_map(|row| Some([row.wall, row.errors.wear?]));
+    let slope = curve.slope.map_or_else(String::new, |slope| format!(": slope {slope:.1}"));
+    Series {
+        name: format!("{}{slope}", curve.variant.name()),
+        points: points.filter(|point| point[1] > ROUND_OFF).collect(),
+    }
+}

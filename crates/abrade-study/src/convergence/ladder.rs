@@ -1,0 +1,164 @@
+//! What a study varies: ladders of settings, coarse before fine.
+
+use abrade_scene::scene::{Motion, Resolve};
+use abrade_scene::{Checked, Precision};
+
+use crate::sets;
+
+/// What is varied along a curve of the study.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variant {
+    /// The target of the time error, on the scene's own nodes.
+    Accuracy,
+    /// The distance of the nodes, at the scene's own accuracy.
+    Pitch,
+    /// The distance of the nodes, and the accuracy with its square.
+    Both,
+    /// The target of the time error, with an engine in `f32`.
+    Single,
+    /// The step of the engine, and who resolves the contacts.
+    Step(Resolve),
+    /// The stiffness of the elastic law: what softer springs save, and what that changes.
+    Stiffness,
+}
+
+/// What a ladder's runs are compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Against {
+    /// Its own finest run.
+    Finest,
+    /// The finest run of another ladder.
+    Of(Variant),
+    /// The run at the value 1: the scene as it is.
+    Scene,
+}
+
+/// A setting to run at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rung {
+    /// The number that is varied.
+    pub value: f64,
+    /// The scene's changes.
+    pub sets: Vec<String>,
+    /// Precision of the engine.
+    pub precision: Precision,
+}
+
+/// The settings of a curve, from coarse to fine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ladder {
+    /// What is varied.
+    pub variant: Variant,
+    /// The settings.
+    pub rungs: Vec<Rung>,
+    pub(crate) against: Against,
+}
+
+const ACCURACIES: [f64; 9] = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5, 1e-6];
+const COARSE_ACCURACIES: [f64; 4] = [1e-1, 1e-2, 1e-3, 1e-4];
+/// Range of the accuracy of a run.
+const ACCURACY_RANGE: [f64; 2] = [1e-6, 0.5];
+/// Factors of the scene's pitch.
+const PITCHES: [f64; 9] = [4.0, 2.8, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25];
+/// Factors of the scene's step.
+const STEPS: [f64; 6] = [8.0, 4.0, 2.0, 1.0, 0.5, 0.25];
+/// Factors of the scene's stiffness.
+const STIFFNESSES: [f64; 7] = [1.0 / 64.0, 1.0 / 16.0, 0.25, 0.5, 1.0, 4.0, 16.0];
+
+impl Variant {
+    /// Every variant, in the order of a study.
+    pub const ALL: [Self; 8] = [
+        Self::Accuracy,
+        Self::Pitch,
+        Self::Both,
+        Self::Single,
+        Self::Step(Resolve::Auto),
+        Self::Step(Resolve::Lockstep),
+        Self::Step(Resolve::QuasiStatic),
+        Self::Stiffness,
+    ];
+
+    /// Its name in tables and pictures.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Accuracy => "accuracy",
+            Self::Pitch => "pitch",
+            Self::Both => "pitch and accuracy",
+            Self::Single => "accuracy, f32",
+            Self::Step(Resolve::Auto) => "step",
+            Self::Step(Resolve::Micro) => "step, Micro",
+            Self::Step(Resolve::Lockstep) => "step, Lockstep",
+            Self::Step(Resolve::QuasiStatic) => "step, QuasiStatic",
+            Self::Stiffness => "stiffness",
+        }
+    }
+
+    /// What its number is, in tables; an `x` for a factor of what the scene has.
+    pub fn counts(self) -> &'static str {
+        match self {
+            Self::Accuracy | Self::Single => "accuracy",
+            Self::Pitch | Self::Both => "pitch x",
+            Self::Step(_) => "step x",
+            Self::Stiffness => "stiffness x",
+        }
+    }
+
+    /// True when its number is an error of computing: smaller is closer to the model.
+    pub fn refines(self) -> bool {
+        self != Self::Stiffness
+    }
+}
+
+impl Ladder {
+    /// The ladder of `variant` for a scene; none where the scene has nothing to vary.
+    pub(crate) fn of(variant: Variant, checked: &Checked) -> Option<Self> {
+        let run = &checked.scene.run;
+        let accuracy = |value: f64| vec![sets::number("run.accuracy", value)];
+        let double =
+            |value: f64, sets: Vec<String>| Rung { value, sets, precision: Precision::Double };
+        let (rungs, against): (Vec<Rung>, _) = match variant {
+            Variant::Accuracy => {
+                let rungs = ACCURACIES.iter().map(|&a| double(a, accuracy(a)));
+                (rungs.collect(), Against::Finest)
+            }
+            Variant::Single => {
+                let rungs = COARSE_ACCURACIES
+                    .iter()
+                    .map(|&a| Rung { precision: Precision::Single, ..double(a, accuracy(a)) });
+                (rungs.collect(), Against::Of(Variant::Accuracy))
+            }
+            Variant::Pitch => {
+                let rungs = PITCHES.iter().map(|&f| double(f, sets::pitch(checked, f)));
+                (rungs.collect(), Against::Finest)
+            }
+            Variant::Both => {
+                let rungs = PITCHES.iter().map(|&f| {
+                    let [low, high] = ACCURACY_RANGE;
+                    let mut sets = sets::pitch(checked, f);
+                    sets.extend(accuracy((run.accuracy * f * f).clamp(low, high)));
+                    double(f, sets)
+                });
+                (rungs.collect(), Against::Finest)
+            }
+            Variant::Step(resolve) => {
+                let rungs = STEPS.iter().map(|&f| {
+                    let step = sets::number("run.step", run.step * f);
+                    double(f, vec![format!("run.resolve={resolve:?}"), step])
+                });
+                (rungs.collect(), Against::Of(Variant::Accuracy))
+            }
+            Variant::Stiffness => {
+                let rungs = STIFFNESSES.iter().map(|&f| double(f, sets::stiffness(checked, f)));
+                (rungs.collect(), Against::Scene)
+            }
+        };
+        let varies = rungs.iter().all(|rung| !rung.sets.is_empty())
+            && (!matches!(variant, Variant::Pitch | Variant::Both)
+                || !sets::pitch(checked, 1.0).is_empty());
+        // A driven body is led by its drive, whoever resolves the others.
+        let is_driven = |motion: &Motion| matches!(motion, Motion::Drive { .. });
+        let driven = checked.scene.bodies.values().any(|body| is_driven(&body.motion));
+        let idle = driven && matches!(variant, Variant::Step(_) | Variant::Single);
+        (varies && !idle).then_some(Self { variant, rungs, against })
+    }
+}

@@ -1,0 +1,152 @@
+//! What the runs of a study are compared by.
+
+use abrade_report::Summary;
+
+/// The results of a run that are compared, or their means over several.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Quantities {
+    /// Wear volume of all surfaces [m3].
+    pub wear: f64,
+    /// Largest depth of a node of any surface [m].
+    pub depth: f64,
+    /// Largest normal force that a surface bore [N].
+    pub force: f64,
+    /// Wear volume per sliding distance of driven bodies [m2].
+    pub rate: Option<f64>,
+    /// The bodies, in the order of their names.
+    pub bodies: Vec<BodyQuantities>,
+}
+
+/// How a body left.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BodyQuantities {
+    /// Speed after over speed before [-].
+    pub restitution: Option<f64>,
+    /// Angle of the velocity from the surface [deg].
+    pub angle: Option<f64>,
+    /// Angular velocity [rad/s].
+    pub spin: [f64; 3],
+    /// Speed [m/s].
+    pub speed: f64,
+    /// Radius of the ball around it [m].
+    pub reach: f64,
+}
+
+/// Differences of a run from the reference, none below zero; `None` where either has no such
+/// quantity, or the reference's is zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Errors {
+    /// Of the wear volume, relative [-].
+    pub wear: Option<f64>,
+    /// Of the largest depth, relative [-].
+    pub depth: Option<f64>,
+    /// Of the peak force, relative [-].
+    pub force: Option<f64>,
+    /// Of the wear per sliding distance, relative [-].
+    pub rate: Option<f64>,
+    /// Of the restitution [-]; of several bodies the largest, as of the two below.
+    pub restitution: Option<f64>,
+    /// Of the rebound angle [deg].
+    pub angle: Option<f64>,
+    /// Of the spin, as speeds of the body's rim over its speed [-].
+    pub spin: Option<f64>,
+}
+
+/// Number of errors of a run.
+pub(crate) const COUNT: usize = 7;
+/// Their columns in tables.
+pub(crate) const NAMES: [&str; COUNT] =
+    ["wear", "depth", "force", "rate", "restitution", "angle_deg", "spin"];
+
+impl Quantities {
+    /// Of a finished run; `reaches` are the radii of its bodies, in the order of their names [m].
+    pub(crate) fn of(summary: &Summary, reaches: &[f64]) -> Self {
+        let surfaces = || summary.surfaces.values();
+        let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+        let bodies = summary.bodies.values().enumerate().map(|(i, body)| BodyQuantities {
+            restitution: body.restitution,
+            angle: body.rebound_angle,
+            spin: body.spin,
+            speed: norm(body.velocity),
+            reach: reaches.get(i).copied().unwrap_or(0.0),
+        });
+        Self {
+            wear: surfaces().map(|s| s.wear_volume).sum(),
+            depth: largest(&mut surfaces().map(|s| s.max_depth)),
+            force: largest(&mut surfaces().map(|s| s.peak_normal_force)),
+            rate: surfaces().find_map(|s| s.wear_rate),
+            bodies: bodies.collect(),
+        }
+    }
+
+    /// Means over runs that differ in where they land.
+    pub(crate) fn mean(all: &[Self]) -> Self {
+        let count = all.len().max(1) as f64;
+        let mean = |of: &dyn Fn(&Self) -> f64| all.iter().map(of).sum::<f64>() / count;
+        let some = |of: &dyn Fn(&Self) -> Option<f64>| {
+            let sum: Option<f64> = all.iter().map(of).sum();
+            sum.map(|sum| sum / count)
+        };
+        let bodies = all.iter().map(|q| q.bodies.len()).min().unwrap_or(0);
+        let body = |i: usize| BodyQuantities {
+            restitution: some(&|q| q.bodies[i].restitution),
+            angle: some(&|q| q.bodies[i].angle),
+            spin: [0, 1, 2].map(|axis| mean(&|q| q.bodies[i].spin[axis])),
+            speed: mean(&|q| q.bodies[i].speed),
+            reach: mean(&|q| q.bodies[i].reach),
+        };
+        Self {
+            wear: mean(&|q| q.wear),
+            depth: mean(&|q| q.depth),
+            force: mean(&|q| q.force),
+            rate: some(&|q| q.rate),
+            bodies: (0..bodies).map(body).collect(),
+        }
+    }
+}
+
+impl Errors {
+    /// Of a run against `reference`.
+    pub(crate) fn between(run: &Quantities, reference: &Quantities) -> Self {
+        let relative = |a: f64, b: f64| (b != 0.0).then(|| ((a - b) / b).abs());
+        let pairs = || run.bodies.iter().zip(&reference.bodies);
+        let worst = |of: &dyn Fn(&BodyQuantities, &BodyQuantities) -> Option<f64>| {
+            pairs().filter_map(|(a, b)| of(a, b)).reduce(f64::max)
+        };
+        Self {
+            wear: relative(run.wear, reference.wear),
+            depth: relative(run.depth, reference.depth),
+            force: relative(run.force, reference.force),
+            rate: run.rate.zip(reference.rate).and_then(|(a, b)| relative(a, b)),
+            restitution: worst(&|a, b| Some((a.restitution? - b.restitution?).abs())),
+            angle: worst(&|a, b| Some((a.angle? - b.angle?).abs())),
+            spin: worst(&|a, b| {
+                let apart = [0, 1, 2].map(|axis| a.spin[axis] - b.spin[axis]);
+                let scale = b.speed.max(norm(b.spin) * a.reach);
+                (b.restitution.is_some() && scale > 0.0).then(|| norm(apart) * a.reach / scale)
+            }),
+        }
+    }
+
+    /// Root mean squares over runs that differ in where they land.
+    pub(crate) fn rms(all: &[Self]) -> Self {
+        let count = all.len().max(1) as f64;
+        let mut means = [None; COUNT];
+        for (at, mean) in means.iter_mut().enumerate() {
+            let squares: Option<f64> = all.iter().map(|e| e.array()[at].map(|x| x * x)).sum();
+            *mean = squares.filter(|_| !all.is_empty()).map(|sum| (sum / count).sqrt());
+        }
+        let [wear, depth, force, rate, restitution, angle, spin] = means;
+        Self { wear, depth, force, rate, restitution, angle, spin }
+    }
+
+    /// In the order of [`NAMES`].
+    pub(crate) fn array(&self) -> [Option<f64>; COUNT] {
+        let Self { wear, depth, force, rate, restitution, angle, spin } = *self;
+        [wear, depth, force, rate, restitution, angle, spin]
+    }
+}
+
+fn norm(v: [f64; 3]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}

@@ -1,0 +1,54 @@
+//! Results from elsewhere: a `summary.json`, whole or with some of its values alone.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::convergence::quantities::{BodyQuantities, Quantities};
+use crate::error::StudyError;
+
+/// Reads the file; also gives its name in words.
+pub(crate) fn read(path: &Path) -> Result<(Quantities, String), StudyError> {
+    let fault = |reason: String| StudyError::Reference { path: path.to_owned(), reason };
+    let text = std::fs::read_to_string(path).map_err(|error| fault(error.kind().to_string()))?;
+    let value: Value = serde_json::from_str(&text).map_err(|error| fault(error.to_string()))?;
+    let quantities = quantities(&value);
+    if quantities == Quantities::default() {
+        let expected = "it holds no `surfaces.<name>.wear_volume_m3`, nor another value of a \
+                        `summary.json` that runs are compared by";
+        return Err(fault(expected.to_owned()));
+    }
+    Ok((quantities, path.display().to_string()))
+}
+
+fn quantities(value: &Value) -> Quantities {
+    let surfaces = || named(value, "surfaces");
+    let number = |of: &Value, key: &str| of.get(key).and_then(Value::as_f64);
+    let largest = |key: &str| surfaces().filter_map(|s| number(s, key)).fold(0.0, f64::max);
+    let vector = |of: &Value, key: &str| {
+        [0, 1, 2].map(|i| of.get(key).and_then(|v| v.get(i)).and_then(Value::as_f64).unwrap_or(0.0))
+    };
+    let bodies = named(value, "bodies").map(|body| BodyQuantities {
+        restitution: number(body, "restitution"),
+        angle: number(body, "rebound_angle_deg"),
+        spin: vector(body, "spin_rad_s"),
+        // Without the speed, and a reach, spins cannot be compared.
+        speed: vector(body, "velocity_m_s").iter().map(|x| x * x).sum::<f64>().sqrt(),
+        reach: 0.0,
+    });
+    Quantities {
+        wear: surfaces().filter_map(|s| number(s, "wear_volume_m3")).sum(),
+        depth: largest("max_depth_m"),
+        force: largest("peak_normal_force_N"),
+        rate: surfaces().find_map(|s| number(s, "wear_rate_m2")),
+        bodies: bodies.collect(),
+    }
+}
+
+/// The values of a map by name, in the order of the names.
+fn named<'a>(value: &'a Value, key: &str) -> impl Iterator<Item = &'a Value> + use<'a> {
+    let map = value.get(key).and_then(Value::as_object);
+    let mut entries: Vec<(&String, &Value)> = map.into_iter().flatten().collect();
+    entries.sort_by_key(|(name, _)| *name);
+    entries.into_iter().map(|(_, value)| value)
+}

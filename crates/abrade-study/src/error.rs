@@ -1,0 +1,38 @@
+//! Why a study ends early.
+
+use std::path::PathBuf;
+
+use abrade_report::ReportError;
+use abrade_scene::{RunError, SceneError};
+use thiserror::Error;
+
+/// A study that cannot be made.
+#[derive(Debug, Error)]
+pub enum StudyError {
+    /// The scene, as the study varies it, is wrong.
+    #[error("{}: {} faults", .0.path, .0.problems.len())]
+    Scene(SceneError),
+    /// A run could not be made at all.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// A file could not be written.
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    /// The file that is to serve as the reference cannot be read.
+    #[error("the reference `{}` cannot be read: {reason}", path.display())]
+    Reference {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        reason: String,
+    },
+    /// No run of the study ended.
+    #[error("no run of the scene came to its end: {reason}")]
+    Nothing {
+        /// Why the first one did not.
+        reason: String,
+    },
+    /// The user broke the study off before there was anything to compare.
+    #[error("interrupted")]
+    Interrupted,
+}

@@ -1,0 +1,144 @@
+//! Studies of a small scene, each run for real.
+
+use std::path::{Path, PathBuf};
+
+use abrade_scene::{Precision, Progress, RunOptions};
+use abrade_study::StudyError;
+use abrade_study::convergence::{Plan, Study, Variant, convergence};
+
+const SCENE: &str = r#"(
+    version: 1,
+    name: "A ball",
+    materials: { "steel": (hardness: "1.7 GPa", young: "200 GPa", friction: 0.3) },
+    surfaces: {
+        "plate": (
+            material: "steel",
+            geometry: HexStrip(length: "4 mm", width: "3 mm", pitch: "0.1 mm"),
+        ),
+    },
+    bodies: {
+        "ball": (
+            shape: Ball(radius: "3 mm"),
+            density: 2500.0,
+            position: OnSurface(surface: "plate", gap: "1 um"),
+            motion: Impact(speed: "35 m/s", angle: "60 deg"),
+        ),
+    },
+)"#;
+
+struct Patient;
+
+impl Progress for Patient {
+    fn advance(&mut self, _: f64, _: Option<f64>) -> bool {
+        true
+    }
+}
+
+fn scene(folder: &Path, text: &str) -> PathBuf {
+    let path = folder.join("scene.ron");
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+fn study(folder: &Path, sets: &[String], plan: Plan) -> Result<Study, StudyError> {
+    let plan = Plan { folder: folder.join("study"), budget: 1e3, ..plan };
+    convergence(&scene(folder, SCENE), sets, &plan, &mut Patient)
+}
+
+/// A study that compared runs with one of another setting, or with the mean where landings pair
+/// off, would see no error fall, or the lattice's in the place of the time step's.
+#[test]
+fn errors_fall_with_the_accuracy_and_with_the_pitch() {
+    let folder = tempfile::tempdir().unwrap();
+    let variants = vec![Variant::Accuracy, Variant::Pitch];
+    let study = study(folder.path(), &[], Plan { variants, ..Plan::default() }).unwrap();
+    let [accuracy, pitch] = &study.curves[..] else { panic!("{:?}", study.curves) };
+    assert!(accuracy.order.unwrap() > 0.3, "{:?}", accuracy.order);
+    assert!(pitch.order.unwrap() > 1.0, "{:?}", pitch.order);
+    for curve in &study.curves {
+        let errors: Vec<f64> = curve.rows.iter().filter_map(|row| row.errors.wear).collect();
+        assert_eq!(errors.len(), curve.rows.len());
+        assert!(errors[0] > 5.0 * errors[errors.len() - 3], "{errors:?}");
+    }
+    // The finest run of the accuracies is their reference, landing by landing.
+    assert_eq!(accuracy.rows.last().unwrap().errors.wear, Some(0.0));
+    let table = study.table();
+    assert!(table.contains("for 1 %: ") && table.contains("error ~ pitch^"), "{table}");
+}
+
+/// One whose rows named other changes than those that were run could not be checked by hand.
+#[test]
+fn a_row_is_run_again_by_its_changes() {
+    let folder = tempfile::tempdir().unwrap();
+    let variants = vec![Variant::Pitch];
+    let plan = Plan { variants, landings: 1, ..Plan::default() };
+    study(folder.path(), &[], plan).unwrap();
+    let mut table = csv::Reader::from_path(folder.path().join("study/study.csv")).unwrap();
+    let head = table.headers().unwrap().clone();
+    let column = |name: &str| head.iter().position(|column| column == name).unwrap();
+    let (sets, wear) = (column("sets"), column("wear_volume_m3"));
+    let row = table.records().nth(1).unwrap().unwrap();
+    let sets: Vec<String> = row[sets].split(' ').map(str::to_owned).collect();
+    let checked = abrade_scene::load(&folder.path().join("scene.ron"), &sets).unwrap();
+    let options = RunOptions { folder: folder.path().join("again"), precision: Precision::Double };
+    let run = abrade_scene::run(&checked, &options, &mut Patient).unwrap();
+    assert_eq!(run.summary.surfaces["plate"].wear_volume, row[wear].parse::<f64>().unwrap());
+}
+
+/// One that took the first number it found for the reference, or its own finest run all the same,
+/// would have no error of a half here.
+#[test]
+fn errors_count_from_a_file_where_one_is_given() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("truth.json");
+    std::fs::write(&file, r#"{"surfaces": {"any": {"wear_volume_m3": 1.0}}}"#).unwrap();
+    let variants = vec![Variant::Accuracy];
+    let plan = || Plan {
+        variants: variants.clone(),
+        landings: 1,
+        reference: Some(file.clone()),
+        ..Plan::default()
+    };
+    let seen = study(folder.path(), &[], plan()).unwrap();
+    let row = &seen.curves[0].rows[2];
+    let expected = 1.0 - row.mean.wear;
+    assert_eq!((row.errors.wear, row.total), (Some(expected), Some(expected)));
+    assert_eq!((row.errors.depth, row.errors.restitution), (None, None));
+    for (text, told) in [("{", "EOF"), ("{}", "wear_volume_m3")] {
+        std::fs::write(&file, text).unwrap();
+        let fault = study(folder.path(), &[], plan()).unwrap_err().to_string();
+        assert!(fault.contains(told) && fault.contains("truth.json"), "{fault}");
+    }
+}
+
+/// One that gave up at the first setting that the scene cannot have, or that hid it, would not name
+/// it.
+#[test]
+fn a_setting_that_cannot_be_run_is_a_row() {
+    let folder = tempfile::tempdir().unwrap();
+    let sets = ["surfaces.plate.geometry.pitch=0.9 mm".to_owned()];
+    let variants = vec![Variant::Pitch];
+    let plan = Plan { variants, landings: 1, ..Plan::default() };
+    let study = study(folder.path(), &sets, plan).unwrap();
+    let rows = &study.curves[0].rows;
+    assert!(rows[0].failure.is_some(), "{rows:?}");
+    assert!(rows.last().unwrap().failure.is_none());
+    assert!(study.table().contains(rows[0].failure.as_ref().unwrap().as_str()));
+}
+
+/// One that forgot the budget would run every setting; one that ran none could compare nothing.
+#[test]
+fn the_budget_leaves_finer_settings_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = Plan {
+        variants: vec![Variant::Pitch],
+        landings: 1,
+        budget: 1e-9,
+        folder: folder.path().join("study"),
+        ..Plan::default()
+    };
+    let path = scene(folder.path(), SCENE);
+    let study = convergence(&path, &[], &plan, &mut Patient).unwrap();
+    assert_eq!((study.curves[0].rows.len(), study.curves[0].left_out), (1, 8));
+    assert!(plan.folder.join("study.png").exists());
+}
