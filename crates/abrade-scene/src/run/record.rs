@@ -20,6 +20,9 @@ use crate::scene::Output;
 
 /// Largest number of history rows of the contacts of an engine step.
 const ROWS: usize = 100_000;
+/// Part of a step by which an instant may lie behind its end and still be shown with it: a sum of
+/// steps is rounded, and the next step has no force yet.
+const BEHIND: f64 = 1e-9;
 
 /// Writes what the scene asks for.
 pub(crate) struct Recorder {
@@ -183,11 +186,12 @@ impl Recorder {
     /// Rows of the history: every instant due while a body is in contact, and the last one due.
     fn rows(&mut self, bodies: &Bodies, dt: f64) -> Result<(), ReportError> {
         let Some(Timed { every, next, .. }) = self.history else { return Ok(()) };
-        if next > self.time + dt {
+        let time = self.time;
+        let end = time + dt * (1.0 + BEHIND);
+        if next > end {
             return Ok(());
         }
-        let time = self.time;
-        let due = ((time + dt - next) / every).floor();
+        let due = ((end - next) / every).floor();
         let last = due as u64;
         let instant = |i: u64| next + i as f64 * every - time;
         let touching = self.courses.iter().filter_map(Course::contact);
