@@ -89,6 +89,22 @@ fn surface_text(surface: &SceneSurface, size: &SurfaceSize) -> String {
             let (speed, spin) = (digits(norm(velocity)), digits(norm(spin)));
             format!("; led at {speed} m/s and {spin} rad/s")
         }
+        SurfaceMotion::Reciprocating { amplitude, frequency, .. } => {
+            let (stroke, frequency) = (length(2.0 * norm(amplitude)), digits(*frequency));
+            format!("; led to and fro over {stroke} at {frequency} Hz")
+        }
+        SurfaceMotion::Rocking { angle, frequency, .. } => {
+            let (angle, frequency) = (digits(2.0 * angle.abs().to_degrees()), digits(*frequency));
+            format!("; led to and fro through {angle} deg at {frequency} Hz")
+        }
+        SurfaceMotion::Path { points, file, repeat, .. } => {
+            let again = if *repeat { ", again and again" } else { "" };
+            let through = match file {
+                Some(file) => format!("the points of `{file}`"),
+                None => format!("{} points", points.len()),
+            };
+            format!("; led through {through}{again}")
+        }
         SurfaceMotion::Free { density, velocity, .. } => {
             format!("; free at {} m/s, {} kg/m3", digits(norm(velocity)), digits(*density))
         }

@@ -8,6 +8,7 @@ use thiserror::Error;
 
 use crate::carrier::BuiltCarrier;
 use crate::check::Checked;
+use crate::led_path::LedPath;
 use crate::place;
 use crate::scene::{Geometry, Motion, SceneBody, SceneSurface};
 use crate::solid::Solid;
@@ -30,6 +31,8 @@ pub struct BuiltSurface {
     pub pose: Isometry3<f64>,
     /// The body that it moves with; none for a surface at rest.
     pub carrier: Option<BuiltCarrier>,
+    /// What it is led along, if it has a path.
+    pub path: Option<LedPath>,
     /// What the engine has in its place.
     pub stand_in: StandIn,
 }
@@ -124,7 +127,8 @@ impl Checked {
     ) -> Result<BuiltSurface, BuildError> {
         let unchecked = || BuildError::Unchecked { name: name.to_owned() };
         let material = self.scene.materials.get(&surface.material).ok_or_else(unchecked)?;
-        let pose = place::frame(surface).ok_or_else(unchecked)?;
+        let path = self.paths.get(name);
+        let pose = place::start(surface, path).ok_or_else(unchecked)?;
         let laws = SurfaceLaws {
             material: material.clone(),
             elastic: surface.elastic.clone(),
@@ -134,7 +138,7 @@ impl Checked {
         };
         let stand_in = StandIn::of(&surface.geometry);
         let mesh = self.meshes.get(name);
-        let carrier = BuiltCarrier::new(&surface.motion, &pose, mesh);
+        let carrier = BuiltCarrier::new(&surface.motion, &pose, path, mesh);
         let surface = match mesh {
             Some(mesh) => Surface::mesh(mesh, laws),
             None => {
@@ -147,17 +151,17 @@ impl Checked {
         if let Some(factors) = self.hardness.get(name) {
             surface.set_hardness_factors(factors.clone()).map_err(refused)?;
         }
-        Ok(BuiltSurface { surface, pose, carrier, stand_in })
+        Ok(BuiltSurface { surface, pose, carrier, path: path.cloned(), stand_in })
     }
 
     fn build_body(&self, body: &SceneBody, solid: &Solid) -> Option<Body> {
         let surface = match body.position.surface() {
-            Some(name) => Some(self.scene.surfaces.get(name)?),
+            Some(name) => Some((self.scene.surfaces.get(name)?, self.paths.get(name))),
             None => None,
         };
-        let local = place::local_state(body, solid, surface)?;
+        let local = place::local_state(body, solid, surface.map(|(surface, _)| surface))?;
         let state = match surface {
-            Some(surface) => local.placed_by(&place::frame(surface)?),
+            Some((surface, path)) => local.placed_by(&place::start(surface, path)?),
             None => local,
         };
         let driven = matches!(body.motion, Motion::Drive { .. });

@@ -3,6 +3,7 @@
 use abrade::{Inertia, State, TriangleMesh};
 use nalgebra::{Isometry3, Point3};
 
+use crate::led_path::LedPath;
 use crate::scene::SurfaceMotion;
 
 /// The body that a surface moves with. Its axes are those of the surface's frame.
@@ -19,26 +20,31 @@ pub struct BuiltCarrier {
 
 impl BuiltCarrier {
     /// The carrier of a surface whose frame lies at `pose`; none for one at rest, and for a free
-    /// plate. A free body has the mass of `mesh`.
+    /// plate. A free body has the mass of `mesh`, a led one the velocity of its `path`.
     pub(crate) fn new(
         motion: &SurfaceMotion,
         pose: &Isometry3<f64>,
+        path: Option<&LedPath>,
         mesh: Option<&TriangleMesh>,
     ) -> Option<Self> {
         let (velocity, spin, inertia, centre_local) = match *motion {
             SurfaceMotion::Fixed => return None,
-            SurfaceMotion::Kinematic { velocity, spin } => (velocity, spin, None, Point3::origin()),
+            SurfaceMotion::Kinematic { velocity, spin } => {
+                (velocity.into(), spin.into(), None, Point3::origin())
+            }
+            SurfaceMotion::Reciprocating { .. }
+            | SurfaceMotion::Rocking { .. }
+            | SurfaceMotion::Path { .. } => {
+                let [velocity, spin] = path?.velocity_spin(0.0);
+                (velocity, spin, None, Point3::origin())
+            }
             SurfaceMotion::Free { density, velocity, spin } => {
                 let (inertia, centre) = mesh?.mass_properties(density);
-                (velocity, spin, Some(inertia), centre)
+                (velocity.into(), spin.into(), Some(inertia), centre)
             }
         };
-        let state = State {
-            position: pose * centre_local,
-            rotation: pose.rotation,
-            velocity: velocity.into(),
-            spin: spin.into(),
-        };
+        let state =
+            State { position: pose * centre_local, rotation: pose.rotation, velocity, spin };
         Some(Self { state, inertia, centre_local })
     }
 

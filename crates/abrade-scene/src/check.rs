@@ -6,6 +6,7 @@ mod carrier;
 mod closed;
 mod copies;
 mod hardness;
+mod led_path;
 mod motion;
 mod placement;
 mod run;
@@ -17,6 +18,7 @@ use std::path::PathBuf;
 
 use abrade::{ParameterError, TriangleMesh};
 
+use crate::led_path::LedPath;
 use crate::patched::Patched;
 use crate::problem::{Mark, Problem, Source, any_of, suggestion};
 use crate::scene::Scene;
@@ -41,6 +43,8 @@ pub struct Checked {
     pub meshes: BTreeMap<String, TriangleMesh>,
     /// Hardness of every node over that of the material, of surfaces where it differs [-].
     pub hardness: BTreeMap<String, Vec<f32>>,
+    /// Paths of the surfaces that are led along one, by name.
+    pub paths: BTreeMap<String, LedPath>,
     /// What the user should know beside the result.
     pub notes: Vec<String>,
 }
@@ -59,7 +63,7 @@ pub(crate) fn check(
     patched: &mut Patched,
     tree: &Node,
 ) -> Result<Checked, Vec<Problem>> {
-    let mut checker = Checker { scene: &scene, patched, tree, problems: Vec::new() };
+    let mut checker = Checker::new(&scene, patched, tree);
     checker.check_name();
     checker.check_finite("gravity", &scene.gravity);
     checker.check_materials();
@@ -70,7 +74,7 @@ pub(crate) fn check(
     let mut solids = checker.check_bodies(&folder, &meshes, &mut notes);
     let streamed = checker.check_streams(&folder, &meshes, &mut notes);
     checker.check_run();
-    let problems = checker.problems;
+    let Checker { problems, paths, .. } = checker;
     if !problems.is_empty() {
         return Err(problems);
     }
@@ -78,7 +82,8 @@ pub(crate) fn check(
     scene.bodies.extend(streamed.bodies);
     let streamed = streamed.names;
     let copied = BTreeMap::new();
-    let mut checked = Checked { scene, streamed, copied, folder, solids, meshes, hardness, notes };
+    let mut checked =
+        Checked { scene, streamed, copied, folder, solids, meshes, hardness, paths, notes };
     checked.copy_surfaces();
     Ok(checked)
 }
@@ -89,6 +94,14 @@ struct Checker<'a> {
     patched: &'a mut Patched,
     tree: &'a Node,
     problems: Vec<Problem>,
+    /// Paths of led surfaces, as soon as the surfaces are checked.
+    paths: BTreeMap<String, LedPath>,
+}
+
+impl<'a> Checker<'a> {
+    fn new(scene: &'a Scene, patched: &'a mut Patched, tree: &'a Node) -> Self {
+        Self { scene, patched, tree, problems: Vec::new(), paths: BTreeMap::new() }
+    }
 }
 
 impl Checker<'_> {

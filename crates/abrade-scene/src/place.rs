@@ -7,6 +7,7 @@ use nalgebra::{
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
+use crate::led_path::LedPath;
 use crate::scene::{Geometry, Motion, Placement, Rotation, SceneBody, SceneSurface};
 use crate::solid::Solid;
 
@@ -29,7 +30,9 @@ pub(crate) fn rotation(rotation: &Rotation) -> Option<UnitQuaternion<f64>> {
 }
 
 /// `v` over its length, whatever that is.
-fn direction<const N: usize>(v: nalgebra::SVector<f64, N>) -> Option<nalgebra::SVector<f64, N>> {
+pub(crate) fn direction<const N: usize>(
+    v: nalgebra::SVector<f64, N>,
+) -> Option<nalgebra::SVector<f64, N>> {
     let largest = v.amax();
     let fine = largest.is_finite() && largest > 0.0;
     fine.then(|| (v / largest).normalize())
@@ -46,8 +49,15 @@ fn random(seed: u64) -> UnitQuaternion<f64> {
     UnitQuaternion::new_normalize(Quaternion::new(real, i, j, k))
 }
 
-/// Frame of a surface in the world, or none if its rotation has no direction.
-pub(crate) fn frame(surface: &SceneSurface) -> Option<Isometry3<f64>> {
+/// Frame of a surface at the start, in the world, `path` being what it is led along; none if its
+/// rotation has no direction.
+pub(crate) fn start(surface: &SceneSurface, path: Option<&LedPath>) -> Option<Isometry3<f64>> {
+    path.map_or_else(|| home(surface), |path| Some(path.at(0.0)))
+}
+
+/// Frame that the position and the rotation of a surface say, in the world; none if the rotation
+/// has no direction.
+pub(crate) fn home(surface: &SceneSurface) -> Option<Isometry3<f64>> {
     let translation = Translation3::from(Vector3::from(surface.position));
     Some(Isometry3::from_parts(translation, rotation(&surface.rotation)?))
 }

@@ -150,7 +150,10 @@ fn go(
     let run = &checked.scene.run;
     recorder.begin(engine, bodies)?;
     loop {
-        let dt = stop::step_length(run, recorder.time()).min(recorder.until_frame());
+        let time = recorder.time();
+        let dt = stop::step_length(run, time).min(recorder.until_frame());
+        let dt = dt.min(bodies.until_corner(time, run.step));
+        bodies.lead(engine, [time, dt], run.step);
         recorder.open_step(engine, bodies);
         let stepped = engine.step(dt, &mut recorder.watch(bodies))?;
         bodies.settle(engine, &stepped);

@@ -28,7 +28,7 @@ pub use motion::{Motion, Solution};
 pub use run::{MeshFormat, Moment, Output, Resolve, Run, Stop};
 pub use shape::{ClumpInertia, SceneShape};
 pub use stream::Stream;
-pub use surface::{SceneSurface, SurfaceMotion};
+pub use surface::{PathPoint, SceneSurface, SurfaceMotion};
 
 use abrade::Material;
 use abrade::quantity::Quantity;

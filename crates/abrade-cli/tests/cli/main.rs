@@ -3,6 +3,7 @@
 mod bad_copies;
 mod bad_hardness;
 mod bad_motions;
+mod bad_paths;
 mod bad_sets;
 mod bad_solids;
 mod bad_streams;

@@ -12,6 +12,10 @@ impl Checker<'_> {
         let motion = path.join("motion");
         match &surface.motion {
             SurfaceMotion::Fixed => return,
+            // Checked with its path.
+            SurfaceMotion::Reciprocating { .. }
+            | SurfaceMotion::Rocking { .. }
+            | SurfaceMotion::Path { .. } => {}
             SurfaceMotion::Kinematic { velocity, spin } => {
                 self.ranges(&motion, [vector("velocity", velocity), vector("spin", spin)]);
             }

@@ -86,7 +86,7 @@ impl Checker<'_> {
             let message = format!("the surface `{name}` has more than {NODE_LIMIT:.0e} nodes");
             return self.refuse(&path.join("counts"), message, format!("gives {nodes:.3e}"));
         }
-        let placed = surface.copies(name).map(|(name, copy)| Some((name, place::frame(&copy)?)));
+        let placed = surface.copies(name).map(|(name, copy)| Some((name, place::home(&copy)?)));
         let Some(placed) = placed.collect::<Option<Vec<_>>>() else { return };
         let (names, frames): (Vec<_>, Vec<_>) = placed.into_iter().unzip();
         if let Some([first, second]) = overlap::first_overlap(mesh, &frames) {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use abrade::TriangleMesh;
+use nalgebra::Isometry3;
 
 use super::{Checker, vector};
 use crate::overlap;
@@ -107,7 +108,7 @@ impl Checker<'_> {
         let Some(local) = place::local_state(body, solid, own.map(|(_, surface)| surface)) else {
             return;
         };
-        let world = match own.map(|(_, surface)| place::frame(surface)) {
+        let world = match own.map(|(name, surface)| self.start(name, surface)) {
             Some(Some(frame)) => local.placed_by(&frame),
             Some(None) => return,
             None => local,
@@ -115,7 +116,7 @@ impl Checker<'_> {
         for (surface_name, surface) in &scene.surfaces {
             let mesh = meshes.get(surface_name);
             let found = surface.copies(surface_name).find_map(|(copy_name, copy)| {
-                let frame = place::frame(&copy)?;
+                let frame = self.start(&copy_name, &copy)?;
                 let state = match own {
                     Some((own_name, _)) if own_name == surface_name => local,
                     _ => world.seen_from(&frame),
@@ -126,6 +127,11 @@ impl Checker<'_> {
                 self.refuse_inside(path, name, body, &copy_name, surface, depth);
             }
         }
+    }
+
+    /// Frame of a surface at the start, in the world.
+    fn start(&self, name: &String, surface: &SceneSurface) -> Option<Isometry3<f64>> {
+        place::start(surface, self.paths.get(name))
     }
 
     fn refuse_inside(

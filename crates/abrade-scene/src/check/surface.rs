@@ -40,6 +40,8 @@ impl Checker<'_> {
                 self.refuse(&path, message, "without `/` or `\\`");
             }
             self.check_carrier(&path, name, surface);
+            let led = self.check_led_path(&path, name, surface, folder, notes);
+            self.paths.extend(led.map(|led| (name.clone(), led)));
             self.ranges(&path, [vector("position", &surface.position)]);
             if place::rotation(&surface.rotation).is_none() {
                 self.no_direction(&path.join("rotation"));

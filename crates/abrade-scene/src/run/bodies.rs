@@ -3,14 +3,17 @@
 use abrade::{Inertia, State};
 use nalgebra::{Isometry3, Point3, Vector3};
 
-use crate::build::Built;
+use crate::build::{Built, BuiltSurface};
 use crate::carrier::BuiltCarrier;
 use crate::check::Checked;
-use crate::run::engine::{Engine, Met, Sample, Stepped};
+use crate::led_path::LedPath;
+use crate::run::engine::{Engine, Met, Sample, Stepped, Stretch};
 use crate::scene::Motion;
 
 /// Speed over the body's largest speed below which it counts as resting.
 const REST: f64 = 1e-6;
+/// Part of a step that is left to a corner of a path and not worth a step of its own.
+const SLIVER: f64 = 1e-6;
 
 /// All bodies, in the scene's order, and where the surfaces lie.
 pub(crate) struct Bodies {
@@ -18,6 +21,8 @@ pub(crate) struct Bodies {
     /// Frames of the surfaces in the world, now, and what they move with.
     pub frames: Vec<Isometry3<f64>>,
     pub carriers: Vec<Option<BuiltCarrier>>,
+    /// Paths of the surfaces, and boxes in the world that hold all places along them [m].
+    paths: Vec<Option<(LedPath, [Point3<f64>; 2])>>,
     /// Corners of the boxes around closed surfaces, in their frames [m]; none for flat ones.
     pub solids: Vec<Option<[Point3<f64>; 2]>>,
     /// Contacts that have ended.
@@ -114,11 +119,28 @@ impl Bodies {
         Self {
             tracks: tracks.collect(),
             frames: frames.clone(),
+            paths: built.surfaces.values().map(path_and_box).collect(),
             carriers: built.surfaces.values().map(|surface| surface.carrier).collect(),
             solids: solids.clone(),
             impacts: 0,
             refused: Vec::new(),
             surface_names: built.surfaces.keys().cloned().collect(),
+        }
+    }
+
+    /// Time [s] from `time` to the next corner of a path, in steps of `step` [s].
+    pub(crate) fn until_corner(&self, time: f64, step: f64) -> f64 {
+        let paths = self.paths.iter().flatten();
+        let until = paths.map(|(path, _)| path.until_corner(time, SLIVER * step));
+        until.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Gives the surfaces with a path their velocities for a step of `dt` [s] from `time` [s].
+    pub(crate) fn lead(&self, engine: &mut dyn Engine, [time, dt]: [f64; 2], step: f64) {
+        for (surface, path) in self.paths.iter().enumerate() {
+            let Some((path, _)) = path else { continue };
+            let [from, to] = [time, time + dt].map(|time| path.at(time));
+            engine.lead(surface, &Stretch { from, to, dt, recover: step });
         }
     }
 
@@ -177,36 +199,99 @@ impl Bodies {
         self.carriers.iter().flatten().map(|body| body.kinetic_energy(&body.state)).sum()
     }
 
-    /// True when every free body moves away from every surface, or rests.
-    pub(crate) fn all_away(&self, engine: &dyn Engine) -> bool {
+    /// True when every free body moves away from every surface, or rests, at `time` [s].
+    pub(crate) fn all_away(&self, engine: &dyn Engine, time: f64) -> bool {
         self.tracks.iter().enumerate().all(|(body, track)| match &track.slide {
             Some(_) => engine.driven(body).is_some_and(abrade::Driven::is_done),
+            None if track.inertia.is_immovable() => true,
             None => {
                 let state = engine.state(body);
                 let rests = state.velocity.norm() <= REST * track.top_speed;
-                rests || (!engine.in_contact(body) && self.leaves(engine, &state, track.reach))
+                let parted = !engine.in_contact(body);
+                (0..self.frames.len()).all(|surface| {
+                    let going = self.going(engine, surface, time);
+                    rests && !going.is_led() || parted && self.leaves(&going, &state, track.reach)
+                })
             }
         })
     }
 
-    /// Away from every surface: rising over a plate, or below its plane; straight past the box
-    /// around a solid, which for one that turns is the box around all its attitudes.
-    fn leaves(&self, engine: &dyn Engine, state: &State, reach: f64) -> bool {
-        self.frames.iter().zip(&self.solids).enumerate().all(|(surface, (frame, solid))| {
-            let mut local = state.seen_from(frame);
-            let (mut velocity, mut turns) = (Vector3::zeros(), None);
-            if let Some((body, moved)) = self.carriers[surface].zip(engine.carrier(surface)) {
-                velocity = frame.inverse_transform_vector(&moved.velocity);
-                turns = (moved.spin != Vector3::zeros()).then_some(body.centre_local);
-            }
-            local.velocity -= velocity;
-            match (solid, turns) {
-                (None, _) => local.velocity.z >= 0.0 || local.position.z < 0.0,
-                (Some(corners), None) => misses(&local, reach, corners),
-                (Some(corners), Some(centre)) => misses(&local, reach, &turned(corners, &centre)),
-            }
+    /// Where a surface goes from `time` [s] on.
+    fn going(&self, engine: &dyn Engine, surface: usize, time: f64) -> Going {
+        match &self.paths[surface] {
+            Some((path, _)) if path.is_over(time) => return Going::Stays(surface),
+            Some((_, swept)) => return Going::Within(*swept),
+            None => {}
+        }
+        let carried = self.carriers[surface].zip(engine.carrier(surface));
+        carried.map_or(Going::Stays(surface), |(body, state)| Going::On {
+            surface,
+            velocity: state.velocity,
+            spin: state.spin,
+            centre_local: body.centre_local,
+            is_led: body.inertia.is_none(),
         })
     }
+
+    /// Away from a surface: rising over a plate, or below its plane; straight past the box around a
+    /// solid, which for one that turns is the box around all its attitudes, and for a surface on a
+    /// path the box around all its places.
+    fn leaves(&self, going: &Going, state: &State, reach: f64) -> bool {
+        let (surface, velocity, turns) = match going {
+            Going::Within(swept) => return misses(state, reach, swept),
+            Going::Stays(surface) => (*surface, Vector3::zeros(), None),
+            Going::On { surface, velocity, spin, centre_local, .. } => {
+                let turns = (*spin != Vector3::zeros()).then_some(*centre_local);
+                (*surface, *velocity, turns)
+            }
+        };
+        let frame = &self.frames[surface];
+        let mut local = state.seen_from(frame);
+        local.velocity -= frame.inverse_transform_vector(&velocity);
+        match (&self.solids[surface], turns) {
+            (None, _) => local.velocity.z >= 0.0 || local.position.z < 0.0,
+            (Some(corners), None) => misses(&local, reach, corners),
+            (Some(corners), Some(centre)) => misses(&local, reach, &turned(corners, &centre)),
+        }
+    }
+}
+
+/// Where a surface, by its index, goes.
+enum Going {
+    /// Nowhere.
+    Stays(usize),
+    /// On with the body that it moves with, as that moves now: velocity [m/s] and spin [rad/s] of the
+    /// body, whose centre is a point of the surface's frame [m].
+    On {
+        surface: usize,
+        velocity: Vector3<f64>,
+        spin: Vector3<f64>,
+        centre_local: Point3<f64>,
+        is_led: bool,
+    },
+    /// Anywhere in a box of the world, as its path wants.
+    Within([Point3<f64>; 2]),
+}
+
+impl Going {
+    /// True when a body at rest cannot know that it has seen the last of the surface.
+    fn is_led(&self) -> bool {
+        match self {
+            Self::Stays(_) => false,
+            Self::On { velocity, spin, is_led, .. } => {
+                let still = *velocity == Vector3::zeros() && *spin == Vector3::zeros();
+                *is_led && !still
+            }
+            Self::Within(_) => true,
+        }
+    }
+}
+
+/// The path of a surface and the box around all its places on it.
+fn path_and_box(built: &BuiltSurface) -> Option<(LedPath, [Point3<f64>; 2])> {
+    let path = built.path.clone()?;
+    let swept = path.swept(&built.surface.bounds());
+    Some((path, swept))
 }
 
 /// A box about `centre` that holds the box between the corners in every attitude.

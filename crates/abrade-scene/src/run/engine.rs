@@ -3,12 +3,15 @@
 use std::collections::BTreeMap;
 
 use abrade::{Driven, Ledger, State, Surface};
-use nalgebra::Vector3;
+use nalgebra::{Isometry3, Vector3};
 
 use crate::run::RunError;
 
 /// A world with wear surfaces and bodies, named by their index in the scene's order.
 pub(crate) trait Engine {
+    /// Gives a led surface the velocity with which it follows its path in the next step.
+    fn lead(&mut self, surface: usize, stretch: &Stretch);
+
     /// Steps by at most `dt` [s], showing every contact step to `watch`.
     fn step(&mut self, dt: f64, watch: &mut dyn Watch) -> Result<Stepped, RunError>;
 
@@ -35,6 +38,18 @@ pub(crate) trait Engine {
 
     /// What was done so far.
     fn counts(&self) -> Counts;
+}
+
+/// The part of a surface's path that is followed in a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stretch {
+    /// Frames of the surface in the world, before and after.
+    pub from: Isometry3<f64>,
+    pub to: Isometry3<f64>,
+    /// Length of the step [s].
+    pub dt: f64,
+    /// Time [s] in which what rounding took it off its path is made up for.
+    pub recover: f64,
 }
 
 /// Sees contact steps.

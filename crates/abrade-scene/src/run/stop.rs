@@ -52,7 +52,7 @@ pub(crate) fn reached(
     stepped: &Stepped,
     time: f64,
 ) -> Option<End> {
-    let away = || bodies.all_away(engine).then_some(End::Rebounded);
+    let away = || bodies.all_away(engine, time).then_some(End::Rebounded);
     match run.stop {
         Stop::AllRebounded => away(),
         Stop::FirstExit if stepped.exited => Some(End::Exited),

@@ -16,7 +16,7 @@ use super::plug::{
 use crate::build::{Built, BuiltSurface, StandIn};
 use crate::carrier::BuiltCarrier;
 use crate::run::RunError;
-use crate::run::engine::{Counts, Ended, Engine, Met, Sample, Stepped, Watch};
+use crate::run::engine::{Counts, Ended, Engine, Met, Sample, Stepped, Stretch, Watch};
 use crate::run::extent::{length_unit, volume_sum};
 use crate::scene::Resolve;
 
@@ -186,6 +186,15 @@ impl World {
 }
 
 impl Engine for World {
+    fn lead(&mut self, surface: usize, stretch: &Stretch) {
+        let Some(body) = self.carriers[surface] else { return };
+        let substeps = self.world.integration_parameters.num_solver_iterations as f64;
+        let Some(rb) = self.world.bodies.get_mut(body) else { return };
+        let [velocity, spin] = velocities(stretch, &scalar::pose(rb.position()), substeps);
+        rb.set_linvel(scalar::to_vector(&velocity), true);
+        rb.set_angvel(scalar::to_vector(&spin), true);
+    }
+
     fn step(&mut self, dt: f64, watch: &mut dyn Watch) -> Result<Stepped, RunError> {
         self.world.integration_parameters.dt = scalar::narrow(dt);
         let mut relay = Relay { watch, indices: &self.indices, surfaces: &self.surfaces };
@@ -313,7 +322,12 @@ impl WearObserver for Relay<'_> {
 /// Rapier's body for a moving surface whose frame lies at `pose`.
 fn carrier_body(carrier: &BuiltCarrier, pose: &Isometry3<f64>) -> RigidBodyBuilder {
     let builder = match &carrier.inertia {
-        None => RigidBodyBuilder::kinematic_velocity_based(),
+        // Whatever its mass, it is led by this point; without one Rapier takes the collider's middle.
+        None => {
+            let centre = scalar::to_vector(&carrier.centre_local.coords);
+            let one = MassProperties::new(centre, 1.0, scalar::to_vector(&Vector3::repeat(1.0)));
+            RigidBodyBuilder::kinematic_velocity_based().additional_mass_properties(one)
+        }
         Some(inertia) => {
             let (moments, turn) = inertia.principal();
             let properties = MassProperties::with_principal_inertia_frame(
@@ -329,6 +343,29 @@ fn carrier_body(carrier: &BuiltCarrier, pose: &Isometry3<f64>) -> RigidBodyBuild
         .pose(scalar::to_pose(pose))
         .linvel(scalar::to_vector(&carrier.state.velocity))
         .angvel(scalar::to_vector(&carrier.state.spin))
+}
+
+/// Velocity [m/s] and spin [rad/s] that take a body, led and now at `pose`, through `stretch`; zero
+/// where the path stands. Rapier turns by 2 atan(|spin| h / 2) in each of its substeps of h, so that
+/// a spin of (2 / h) tan(turn / 2n) makes the whole turn in n of them.
+fn velocities(stretch: &Stretch, pose: &Isometry3<f64>, substeps: f64) -> [Vector3<f64>; 2] {
+    let Stretch { from, to, dt, recover } = stretch;
+    let mut velocities = [Vector3::zeros(); 2];
+    if *dt <= 0.0 {
+        return velocities;
+    }
+    if from.translation != to.translation {
+        let off = from.translation.vector - pose.translation.vector;
+        velocities[0] = (to.translation.vector - from.translation.vector) / *dt + off / *recover;
+    }
+    if from.rotation != to.rotation {
+        let off = (from.rotation * pose.rotation.inverse()).scaled_axis();
+        let turn = (to.rotation * from.rotation.inverse()).scaled_axis();
+        let half = turn.norm() / (2.0 * substeps);
+        let share = if half > 0.0 { half.tan() / half } else { 1.0 };
+        velocities[1] = turn * (share / dt) + off / *recover;
+    }
+    velocities
 }
 
 /// A box under the nodes of a plate, and its middle in the plate's frame.

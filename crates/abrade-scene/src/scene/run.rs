@@ -17,7 +17,8 @@ pub struct Run {
     /// Target relative time error of the wear volume [-].
     #[serde(default = "default_accuracy")]
     pub accuracy: f64,
-    /// Time step of the engine [s] (default 1/240 s).
+    /// Time step of the engine [s] (default 1/240 s). In each a led surface moves at constant
+    /// velocity.
     #[serde(default = "default_step", deserialize_with = "quantity::time")]
     #[schemars(with = "Quantity")]
     pub step: f64,
@@ -27,7 +28,7 @@ pub struct Run {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Stop {
-    /// When every free body moves away from every surface, or rests.
+    /// When every free body moves away from every surface, or rests where none that is led can come.
     #[default]
     AllRebounded,
     /// At the first instant after contact at which the whole body is above the undeformed surface,

@@ -68,6 +68,62 @@ pub enum SurfaceMotion {
         #[schemars(with = "[Quantity; 3]")]
         spin: [f64; 3],
     },
+    /// Led to and fro about its `position`, by amplitude * sin(2 pi frequency * time + phase), and
+    /// not turned. Within a step of the run it moves at its mean velocity in that step, which is off
+    /// by at most pi * frequency * step of the largest, and at the end of every step it is exactly
+    /// in its place; 20 steps of `run.step` must fit into a period.
+    Reciprocating {
+        /// Farthest from its position [m].
+        #[serde(deserialize_with = "vectors::length3")]
+        #[schemars(with = "[Quantity; 3]")]
+        amplitude: [f64; 3],
+        /// Periods per time [1/s].
+        #[serde(deserialize_with = "quantity::frequency")]
+        #[schemars(with = "Quantity")]
+        frequency: f64,
+        /// Phase at the start [rad].
+        #[serde(default, deserialize_with = "quantity::angle")]
+        #[schemars(with = "Quantity")]
+        phase: f64,
+    },
+    /// Led to and fro about its `rotation`, by angle * sin(2 pi frequency * time + phase) about an
+    /// axis through the origin of its frame; in steps as `Reciprocating`, with 4 of them per radian
+    /// of the angle in a period at least.
+    Rocking {
+        /// Axis, of any length above zero [-].
+        axis: [f64; 3],
+        /// Farthest from its rotation, right-handed [rad].
+        #[serde(deserialize_with = "quantity::angle")]
+        #[schemars(with = "Quantity")]
+        angle: f64,
+        /// Periods per time [1/s].
+        #[serde(deserialize_with = "quantity::frequency")]
+        #[schemars(with = "Quantity")]
+        frequency: f64,
+        /// Phase at the start [rad].
+        #[serde(default, deserialize_with = "quantity::angle")]
+        #[schemars(with = "Quantity")]
+        phase: f64,
+    },
+    /// Led through points, from each to the next at constant velocity and spin, the short way
+    /// around; before the first and after the last one it stands still. A step of the run ends at
+    /// every point, so that no step cuts a corner. Either `points` or `file` is given.
+    Path {
+        /// At least two points, in the order of their times.
+        #[serde(default)]
+        points: Vec<PathPoint>,
+        /// CSV file without a header, of lines t [s], x, y, z [m, times `scale`] and, if it turns,
+        /// a quaternion qx, qy, qz, qw: times, shifts and rotations as in `points`. It is looked for
+        /// beside the scene.
+        #[serde(default)]
+        file: Option<String>,
+        /// Factor from the file's lengths to metres [-].
+        #[serde(default = "one")]
+        scale: f64,
+        /// Begins again at the last point, which must be where the first one is.
+        #[serde(default)]
+        repeat: bool,
+    },
     /// A free body, which what strikes it and gravity move; of solids alone, whose mesh gives the
     /// mass.
     Free {
@@ -86,8 +142,29 @@ pub enum SurfaceMotion {
     },
 }
 
+/// A point of the path of a led surface.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PathPoint {
+    /// When it is there, from the start of the run [s].
+    #[serde(deserialize_with = "quantity::time")]
+    #[schemars(with = "Quantity")]
+    pub time: f64,
+    /// Where the origin of its frame is then, from the surface's `position` [m].
+    #[serde(default, deserialize_with = "vectors::length3")]
+    #[schemars(with = "[Quantity; 3]")]
+    pub shift: [f64; 3],
+    /// How its frame is turned then, from the surface's `rotation` (default: not at all).
+    #[serde(default)]
+    pub rotation: Rotation,
+}
+
 fn default_flow() -> FlowLaw {
     FlowLaw::CapozzaHanley { lateral: Lateral::Projected }
+}
+
+fn one() -> f64 {
+    1.0
 }
 
 fn undamped() -> f64 {

@@ -4,6 +4,7 @@ mod build;
 mod closed;
 mod copies;
 mod extremes;
+mod led;
 mod moving;
 mod words;
 

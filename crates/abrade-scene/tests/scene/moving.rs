@@ -36,7 +36,7 @@ impl Progress for Quiet {
 }
 
 /// Runs a scene into a folder of the test's own.
-fn ran(checked: &Checked, test: &str, precision: Precision) -> (Outcome, PathBuf) {
+pub(crate) fn ran(checked: &Checked, test: &str, precision: Precision) -> (Outcome, PathBuf) {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("moving").join(test);
     let options = RunOptions { folder: folder.clone(), precision };
     let outcome = run(checked, &options, &mut Quiet).expect("a run");
@@ -45,7 +45,7 @@ fn ran(checked: &Checked, test: &str, precision: Precision) -> (Outcome, PathBuf
 }
 
 /// A column of the history.
-fn column(folder: &std::path::Path, name: &str) -> Vec<f64> {
+pub(crate) fn column(folder: &std::path::Path, name: &str) -> Vec<f64> {
     let text = std::fs::read_to_string(folder.join("history.csv")).expect("a history");
     let mut lines = text.lines();
     let names = lines.next().expect("a header");
