@@ -14,9 +14,9 @@ use crate::surface::{SurfaceId, WornCollider};
 use crate::track::Trace;
 
 /// Balances of the load per pitch of the way.
-const SAMPLES: f64 = 4.0;
+pub(crate) const SAMPLES: f64 = 4.0;
 /// Most balances of a step: beyond it the way is sampled more coarsely.
-const LIMIT: u64 = 4000;
+pub(crate) const LIMIT: u64 = 4000;
 /// Share of a pitch below which a way is none, and of a load below which it has not grown.
 const STILL: f64 = 1e-6;
 /// Pitches by which a body that is elsewhere than it was left has been moved by somebody.
@@ -51,11 +51,12 @@ pub(crate) struct Outcome {
 }
 
 /// True when no node can flow under `load` [N]: none bears more than all of it, and the least
-/// that moves a node is its rest area times the smaller hardness.
+/// that moves a node is its rest area times the smaller hardness. On a closed surface a few nodes at
+/// its edges stand for less than the area taken.
 pub(crate) fn holds(surface: &Surface, load: f64) -> bool {
     let material = &surface.laws().material;
     let hardness = surface.least_hardness() * material.shear_ratio.min(1.0);
-    load * 1f64.hypot(material.friction) < hardness * surface.nodes().rest_area[0]
+    load * 1f64.hypot(material.friction) < hardness * surface.least_area()
 }
 
 impl Pressing {

@@ -19,6 +19,10 @@ use crate::view::WorldView;
 use crate::world::WearWorld;
 use crate::{derive, scalar, shadow, steer};
 
+/// Pitches of depth beyond which what lies, slides or rolls on a solid does not keep it from being
+/// renewed.
+const LATE: f64 = 1.0;
+
 /// A worn solid in the frame of its rigid body.
 struct Left {
     inertia: Inertia,
@@ -38,6 +42,7 @@ impl WearWorld {
             if !worn.is_due() || self.is_held(surface, parent, world) {
                 continue;
             }
+            self.break_rubs(surface);
             match self.surfaces[surface.0].renew() {
                 Ok(lost) => {
                     self.follow(surface, parent, lost, world);
@@ -60,7 +65,11 @@ impl WearWorld {
             true => tracked.touched().next().is_some(),
             false => tracked.touched().any(|touched| touched == surface),
         });
-        holding.next().is_some() || self.driven.iter().any(|driven| driven.surface() == surface)
+        let worn = &self.surfaces[surface.0].surface;
+        let is_rubbed = worn.deepest() < LATE * worn.pitch() && self.is_rubbed(surface);
+        is_rubbed
+            || holding.next().is_some()
+            || self.driven.iter().any(|driven| driven.surface() == surface)
     }
 
     /// Makes proxy and body those of a renewed solid, which has lost a volume [m3].

@@ -26,7 +26,7 @@ pub enum Resolver {
     /// The core's integrator carries the body through the step on its own.
     Micro,
     /// Rapier keeps the contact, laid on the worn surface; nodes move by the balance of the load
-    /// that it carried.
+    /// that it carried. On closed and on moving surfaces among others, contact by contact.
     QuasiStatic,
     /// The body and all that it touches or is jointed to are stepped finely in a private world.
     Lockstep,

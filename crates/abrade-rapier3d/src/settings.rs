@@ -67,7 +67,7 @@ pub struct Counters {
     pub looked: u64,
     /// Body steps resolved by Micro.
     pub micro: u64,
-    /// Body steps resolved by QuasiStatic.
+    /// Body steps resolved by QuasiStatic, and contacts among others that it pressed, step by step.
     pub quasi_static: u64,
     /// Body steps resolved by Lockstep.
     pub lockstep: u64,

@@ -200,8 +200,8 @@ impl Read {
             require(own as usize == index, "a body is not in its place")?;
             self.check_body(tracked)?;
         }
-        let bores = self.bores.iter().all(|(_, bore)| bore.is_sound());
-        require(bores, "the impulse of a contact is out of range")?;
+        let bores = self.bores.iter().all(|(_, bore)| bore.is_sound(&self.surfaces));
+        require(bores, "what a contact bears is out of range")?;
         let identity = Isometry3::identity();
         let mut driven = self.driven.iter();
         let sound =

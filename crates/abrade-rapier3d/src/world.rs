@@ -75,7 +75,7 @@ pub struct WearWorld {
     pub(crate) current: Current,
 }
 
-/// Body steps by resolver and [`Refusal::name`](crate::Refusal::name).
+/// Body steps, and pressed contacts among others, by resolver and [`Refusal::name`](crate::Refusal::name).
 pub(crate) type Reasons = BTreeMap<(Resolver, Cow<'static, str>), u64>;
 
 /// Where the integration of a body ended, given in `frame`.
@@ -181,10 +181,12 @@ impl WearWorld {
             tracked.pressing.iter().for_each(|pressing| sum += *pressing.ledger());
         }
         self.driven.iter().for_each(|driven| sum += *driven.ledger());
+        self.rub_ledgers().for_each(|ledger| sum += *ledger);
         sum
     }
 
-    /// Body steps that Micro did not resolve since the world was made: by whom, why not by Micro
+    /// Body steps that Micro did not resolve since the world was made, and contacts among others that
+    /// QuasiStatic pressed: by whom, why not by Micro
     /// ([`Refusal::name`](crate::Refusal::name)), and how many.
     pub fn reasons(&self) -> impl Iterator<Item = (Resolver, &str, u64)> {
         self.reasons.iter().map(|((by, why), count)| (*by, &**why, *count))

@@ -7,7 +7,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::body::{Body, State};
-use crate::encounter::{Advance, EncounterSettings, Instant, Observer, Placed};
+use crate::encounter::{Advance, EncounterSettings, Instant, Observer, Placed, Skin};
 use crate::error::PhysicsError;
 use crate::exit::engulfed;
 use crate::integrate::Integrator;
@@ -173,6 +173,20 @@ impl Pressed {
         Ok(Self { integrator: Integrator::new(body, surfaces, settings)? })
     }
 
+    /// A pressed `body`, which wears on a surface of its own, near one `surface`. Its nodes find the
+    /// facets of the other no deeper than 0.3 pitches: an [`Hold::increment`] should be well below that.
+    ///
+    /// # Errors
+    /// As [`Encounter::of_two`](crate::Encounter::of_two).
+    pub fn of_two(
+        body: &Body,
+        skin: &Skin<'_>,
+        surface: &Surface,
+        settings: EncounterSettings,
+    ) -> Result<Self, PhysicsError> {
+        Ok(Self { integrator: Integrator::of_two(body, skin, surface, settings)? })
+    }
+
     /// Moves the body to `end`, but for its height, wearing what it is pressed against.
     ///
     /// # Errors
@@ -192,6 +206,9 @@ impl Pressed {
         };
         if !self.integrator.touched {
             self.lift(body, placed, down);
+            if placed.iter().any(|placed| placed.skin.is_some()) {
+                self.lower(body, placed, down * hold.increment);
+            }
         }
         let way = end.position - body.state.position;
         let way = way - down * down.dot(&way);
@@ -214,9 +231,25 @@ impl Pressed {
         }
     }
 
-    /// Ends the contact: overhangs break off.
+    /// Lowers a body by increments until the next would touch: nodes of two worn surfaces see no
+    /// further, and a search for the height could miss them.
+    fn lower(&mut self, body: &mut Body, placed: &[Placed<'_>], increment: Vector3<f64>) {
+        let start = body.state.position;
+        let count = 2.0 * body.shape.bounding_radius() / increment.norm();
+        for _ in 0..count as u64 {
+            let clear = body.state.position;
+            body.state.position += increment;
+            if self.integrator.overlaps(body, placed).any(|depth| depth > 0.0) {
+                body.state.position = clear;
+                return;
+            }
+        }
+        body.state.position = start;
+    }
+
+    /// Ends the contact: what its springs hold is lost, and overhangs break off.
     pub fn end(&mut self, surfaces: &mut [Placed<'_>]) {
-        self.integrator.end_contact(surfaces);
+        self.integrator.let_go(surfaces);
     }
 
     /// Force of the surfaces on the body at the end of the last increment [N].

@@ -396,8 +396,13 @@ impl Surface {
         (!self.is_flat()).then(around)
     }
 
-    /// Area that few nodes are smaller than [m2].
-    pub(crate) fn least_area(&self) -> f64 {
+    /// Depth of the deepest node since the last renewal [m].
+    pub fn deepest(&self) -> f64 {
+        self.deepest
+    }
+
+    /// Rest area that few nodes are smaller than [m2]; on a flat surface, that of every node.
+    pub fn least_area(&self) -> f64 {
         self.least_area
     }
 

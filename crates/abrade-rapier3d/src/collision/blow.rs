@@ -23,9 +23,14 @@ pub(crate) struct Blow {
     pub restitution: f64,
     /// Velocity of the second collider over the first before the step, along the contact [m/s].
     pub sliding: Vector3<f64>,
+    /// Velocity of the centre of each over the material of the other before the step, along the
+    /// contact; zero for what no dynamic body is [m/s].
+    pub drifts: [Vector3<f64>; 2],
     /// Speed at which they approached each other before the step, and still do after it [m/s].
     pub approach: f64,
     pub closing: f64,
+    /// Where it acted, in the world.
+    pub place: Point3<f64>,
     /// Their dynamic bodies.
     pub bodies: [Option<RigidBodyHandle>; 2],
     /// How deep Rapier lets them overlap [m].
@@ -65,15 +70,22 @@ impl Blow {
             b - a
         };
         let (came, left) = (apart(0), apart(1));
+        let along = |v: Vector3<f64>| v - normal * normal.dot(&v);
+        let drift = |own: usize| match sides[own].body {
+            Some(_) => along(sides[own].drift(&sides[1 - own])),
+            None => Vector3::zeros(),
+        };
         Some(Self {
             impulse,
             energy: 0.0,
             normal,
             mass: 1.0 / ease,
             restitution: restitution(first, second),
-            sliding: came - normal * normal.dot(&came),
+            sliding: along(came),
+            drifts: [drift(0), drift(1)],
             approach: -came.dot(&normal),
             closing: -left.dot(&normal),
+            place,
             bodies: sides.map(|side| side.body),
             overlap,
         })
@@ -151,6 +163,11 @@ impl<'a> Side<'a> {
     fn velocity(&self, place: &Point3<f64>, at: usize) -> Vector3<f64> {
         let state = &self.states[at];
         state.velocity + state.spin.cross(&(place - state.position))
+    }
+
+    /// Velocity of its centre over the material of `other` there, before the step [m/s].
+    fn drift(&self, other: &Self) -> Vector3<f64> {
+        self.states[0].velocity - other.velocity(&self.states[0].position, 0)
     }
 
     /// Velocity of its material at `place` along `normal` per impulse along it [1/kg].

@@ -7,20 +7,28 @@
 //! hang together there. The nodes keep what it did to them, and the motion stays Rapier's. Rapier
 //! brakes a body over more than one step: a blow is what its contact has borne until the two no longer
 //! approach.
+//!
+//! What bears no blow lies there: its load presses the nodes ([`lying`]).
 
 mod blow;
 mod clusters;
+mod lying;
+mod passage;
+mod rub;
 mod strike;
+mod two;
 
 use std::collections::BTreeMap;
 
-use abrade::PhysicsError;
+use abrade::{Ledger, PhysicsError};
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{ColliderHandle, ContactPair};
 
 use crate::collision::blow::Blow;
 use crate::collision::clusters::Clusters;
+use crate::collision::lying::{Bearing, Lying};
 use crate::collision::strike::{Outcome, Striker};
+use crate::collision::two::Two;
 use crate::event::{Refusal, WearEvent};
 use crate::gate;
 use crate::resolver::Resolver;
@@ -44,7 +52,7 @@ const STOPPED: f64 = 0.05;
 pub(crate) type PairKey = [(u32, u32); 2];
 
 /// What a contact bears.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Default)]
 #[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Bore {
     /// Impulse of what lies on it, per step [N s].
@@ -54,6 +62,18 @@ pub(crate) struct Bore {
     energy: f64,
     /// Steps that it has taken.
     steps: u32,
+    /// What has worn by lying there.
+    kept: Option<Lying>,
+}
+
+/// What a contact did in a step.
+enum Bears {
+    /// A blow that is under way.
+    Blow,
+    /// A blow that is over.
+    Strikes,
+    /// It lies there, and has borne this impulse for two steps [N s].
+    Lies(f64),
 }
 
 /// Contacts between the steps.
@@ -62,9 +82,10 @@ pub(crate) type Bores = BTreeMap<PairKey, Bore>;
 #[cfg(feature = "serde-serialize")]
 impl Bore {
     /// True for impulses that a contact can have.
-    pub fn is_sound(&self) -> bool {
+    pub fn is_sound(&self, surfaces: &[WornCollider]) -> bool {
         let sizes = [self.lying, self.blow, self.energy];
-        sizes.iter().all(|x| x.is_finite() && *x >= 0.0) && self.steps < SPAN
+        let kept = self.kept.as_ref().is_none_or(|kept| kept.is_sound(surfaces));
+        kept && sizes.iter().all(|x| x.is_finite() && *x >= 0.0) && self.steps < SPAN
     }
 }
 
@@ -76,29 +97,35 @@ impl Bore {
         if strikes { blow.impulse - self.lying } else { 0.0 }
     }
 
-    /// Bears a contact through a step. True for a blow that is over, and faster than `rest` [m/s];
-    /// `blow` is then all of it.
-    fn bear(&mut self, blow: &mut Blow, clusters: &Clusters, rest: f64) -> bool {
-        let part = self.part(blow, rest);
-        let borne = blow.impulse;
+    /// Bears a contact through a step. Where a blow strikes, faster than `rest` [m/s], `blow` is then
+    /// all of it.
+    fn bear(&mut self, blow: &mut Blow, clusters: &Clusters, rest: f64) -> Bears {
+        let (borne, before) = (blow.impulse, self.lying);
+        let mut part = self.part(blow, rest);
+        let energy = self.energy + clusters.share(blow, part);
+        // What grows, and nothing has come, is a load.
+        if energy == 0.0 {
+            (part, self.blow) = (0.0, 0.0);
+        }
         self.steps += 1;
         self.blow += part;
-        self.energy += clusters.share(blow, part);
+        self.energy = energy;
         (blow.impulse, blow.energy) = (self.blow, blow.energy_of(self.blow).min(self.energy));
         if part > 0.0 && self.steps < SPAN && blow.closing > STOPPED * blow.speed() {
-            return false;
+            return Bears::Blow;
         }
-        // What bears as much for so long lies there.
-        let lies = part == 0.0 || self.steps >= SPAN;
-        self.lying = if lies { borne } else { self.lying };
-        *self = Self { lying: self.lying, ..Self::default() };
-        blow.speed() > rest
+        let strikes = self.blow > 0.0 && blow.speed() > rest;
+        // What bears as much for so long lies there, and what came no faster than rest.
+        let lies = self.steps >= SPAN || !strikes;
+        self.lying = if lies { borne } else { before };
+        (self.blow, self.energy, self.steps) = (0.0, 0.0, 0);
+        if strikes { Bears::Strikes } else { Bears::Lies(borne.min(before)) }
     }
 }
 
 impl WearWorld {
     /// Leaves the contacts of a body with the surfaces `near` it to Rapier through the step, to wear by
-    /// their impulses after it.
+    /// their impulses after it, be it by blows or by lying there.
     pub(crate) fn crowd(
         &mut self,
         body: RigidBodyHandle,
@@ -114,8 +141,9 @@ impl WearWorld {
     /// Lets the crowded surfaces wear by what their contacts bore.
     pub(crate) fn collide(&mut self, world: &WorldView<'_>) {
         let mut crowded = std::mem::take(&mut self.current.crowded);
-        if crowded.is_empty() {
-            return self.bores.clear();
+        let mut old = std::mem::take(&mut self.bores);
+        if crowded.is_empty() && old.is_empty() {
+            return;
         }
         crowded.sort_by_key(|(surface, _)| *surface);
         crowded.dedup_by_key(|(surface, _)| *surface);
@@ -130,39 +158,95 @@ impl WearWorld {
                 }
             }
         }
-        let old = std::mem::take(&mut self.bores);
-        let bore = |key: &PairKey| old.get(key).copied().unwrap_or_default();
         let gravity = scalar::vector(world.gravity).norm();
         let rest = (REST * gravity * self.current.dt).max(self.still());
-        let part = |key: &PairKey, blow: &Blow| bore(key).part(blow, rest);
+        let fresh = Bore::default();
+        let part = |key: &PairKey, blow: &Blow| old.get(key).unwrap_or(&fresh).part(blow, rest);
         let contacts = met.iter().map(|(key, (_, blow, _))| (blow, part(key, blow)));
         let clusters = Clusters::of(contacts, rest);
         for (key, (pair, mut blow, reason)) in met {
-            let mut bore = bore(&key);
-            if bore.bear(&mut blow, &clusters, rest) {
-                self.strike(pair, &blow, reason, world);
+            let mut bore = old.remove(&key).unwrap_or_default();
+            match bore.bear(&mut blow, &clusters, rest) {
+                Bears::Blow => {}
+                Bears::Strikes => self.strike(pair, &blow, reason, world),
+                Bears::Lies(impulse) => {
+                    self.lie(pair, &blow, impulse, &mut bore.kept, reason, world);
+                }
             }
             self.bores.insert(key, bore);
+        }
+        for (key, mut bore) in old {
+            let Some(mut kept) = bore.kept.take() else { continue };
+            match kept.waits(self.current.dt) {
+                true => drop(self.bores.insert(key, Bore { kept: Some(kept), ..bore })),
+                false => self.leave_lying(kept),
+            }
+        }
+    }
+
+    /// True while a contact that is pressed should go on with the surface as it is.
+    pub(crate) fn is_rubbed(&self, surface: SurfaceId) -> bool {
+        let rubs = self.bores.values().filter_map(|bore| bore.kept.as_ref()?.rub());
+        let mut young = rubs.filter(|rub| rub.is_on(surface) && rub.is_young(&self.surfaces));
+        young.next().is_some()
+    }
+
+    /// Breaks the contacts that are pressed against a surface; they begin anew where they are.
+    pub(crate) fn break_rubs(&mut self, surface: SurfaceId) {
+        let kept = self.bores.values_mut().filter_map(|bore| bore.kept.as_mut());
+        let rubs: Vec<_> = kept.filter_map(|kept| kept.take_rub_on(surface)).collect();
+        rubs.into_iter().for_each(|rub| self.let_go(Some(rub)));
+    }
+
+    /// Energies of the contacts that are pressed [J].
+    pub(crate) fn rub_ledgers(&self) -> impl Iterator<Item = &Ledger> {
+        self.bores.values().filter_map(|bore| Some(bore.kept.as_ref()?.rub()?.ledger()))
+    }
+
+    /// The places of the surfaces of a pair among all.
+    fn own(&self, pair: &ContactPair) -> [Option<usize>; 2] {
+        [pair.collider1, pair.collider2]
+            .map(|own| self.surfaces.iter().position(|worn| worn.proxy == own))
+    }
+
+    /// True when one of the surfaces is a plate at rest: Rapier's contact with it is for the other
+    /// resolvers.
+    fn has_plate(&self, own: [Option<usize>; 2]) -> bool {
+        let holds = |at| gate::can_hold(&self.lies, &self.surfaces, SurfaceId(at));
+        own.into_iter().flatten().any(holds)
+    }
+
+    /// Presses what has borne an impulse [N s] in the step by lying there.
+    fn lie(
+        &mut self,
+        pair: &ContactPair,
+        blow: &Blow,
+        impulse: f64,
+        kept: &mut Option<Lying>,
+        reason: Refusal,
+        world: &WorldView<'_>,
+    ) {
+        let own = self.own(pair);
+        let Some((body, is_first)) = moving(pair, world).filter(|_| impulse > 0.0) else { return };
+        if !self.has_plate(own) {
+            let bearing = Bearing { pair, own, blow, impulse, body, is_first, reason };
+            self.press_lying(&bearing, kept, world);
         }
     }
 
     /// Runs the collision and books it.
     fn strike(&mut self, pair: &ContactPair, blow: &Blow, reason: Refusal, world: &WorldView<'_>) {
-        let own = [pair.collider1, pair.collider2]
-            .map(|own| self.surfaces.iter().position(|worn| worn.proxy == own));
-        let is_plate = |at: &Option<usize>| {
-            at.is_some_and(|at| gate::can_hold(&self.lies, &self.surfaces, SurfaceId(at)))
-        };
+        let own = self.own(pair);
         let Some((body, is_first)) = moving(pair, world) else { return };
         let Some(at) = own.into_iter().flatten().next().map(SurfaceId) else { return };
-        // Rapier's contact with a plate at rest is for the other resolvers, which the body is not in.
-        if own.iter().any(is_plate) {
+        if self.has_plate(own) {
             return self.refuse(body, at, reason);
         }
-        let Some(striker) = Striker::of(pair, own, blow, &self.surfaces, world) else {
+        let Some(two) = Two::of(pair, own, blow, &self.surfaces, world) else {
             let collider = if own[0].is_some() { pair.collider2 } else { pair.collider1 };
             return self.refuse(body, at, Refusal::Shape { collider });
         };
+        let striker = Striker::new(two, blow, &self.surfaces, self.current.dt);
         let settings = self.settings.encounter();
         let (outcome, done) = striker.run(&mut self.surfaces, blow, settings);
         let Outcome { ledger, steps, node_evaluations, contact_time, worn } = outcome;
@@ -175,14 +259,20 @@ impl WearWorld {
             self.events.push(WearEvent::Started { body, surface });
             self.events.push(WearEvent::Ended { body, surface, impulse, volume, contact_time });
         }
-        match done {
-            Ok(()) => {}
-            Err(PhysicsError::StartsInside { .. } | PhysicsError::StepVanished { .. }) => {
-                self.refuse(body, at, Refusal::Inside);
-            }
-            Err(PhysicsError::TooManySteps { .. }) => self.refuse(body, at, Refusal::Stiff),
-            Err(PhysicsError::Unsupported { .. }) => self.refuse(body, at, Refusal::Wears),
-            Err(error) => self.fail(body, at, error),
+        if let Err(error) = done {
+            self.give_up(body, at, error);
+        }
+    }
+
+    /// Leaves a contact that the core could not take to the end.
+    fn give_up(&mut self, body: RigidBodyHandle, surface: SurfaceId, error: PhysicsError) {
+        match error {
+            PhysicsError::StartsInside { .. }
+            | PhysicsError::StepVanished { .. }
+            | PhysicsError::LoadNotReached { .. } => self.refuse(body, surface, Refusal::Inside),
+            PhysicsError::TooManySteps { .. } => self.refuse(body, surface, Refusal::Stiff),
+            PhysicsError::Unsupported { .. } => self.refuse(body, surface, Refusal::Wears),
+            error => self.fail(body, surface, error),
         }
     }
 

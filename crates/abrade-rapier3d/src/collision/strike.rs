@@ -1,18 +1,14 @@
 //! A collision of two in the core: one of them stands, the other flies at it without turning.
 
 use abrade::{
-    Ball, Body, Encounter, EncounterSettings, Inertia, Ledger, Loads, PhysicsError, Piece, Placed,
-    Shape, Skin, State, Surface, Until, can_meet,
+    Body, Encounter, EncounterSettings, Inertia, Ledger, Loads, PhysicsError, Placed, State, Until,
 };
-use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
-use rapier::geometry::{Collider, ContactPair};
+use nalgebra::{Matrix3, Point3, Vector3};
 
 use crate::collision::blow::Blow;
-use crate::micro;
-use crate::path::Extent;
-use crate::surface::{SurfaceId, WornCollider};
-use crate::view::WorldView;
-use crate::wall;
+use crate::collision::two::Two;
+use crate::micro::Volumes;
+use crate::surface::WornCollider;
 
 /// Parts of a pitch that a striker flies between two looks at whether it has touched, and parts of a
 /// period of its springs, if that is shorter, between two looks at whether it has parted.
@@ -29,14 +25,10 @@ const LIFTS: usize = 60;
 /// Clearance of a striker at its start, in pitches.
 const CLEAR: f64 = 0.02;
 
-/// The surface that stands, and what flies at it.
+/// Two of which one flies at the surface that stands.
 pub(crate) struct Striker {
-    stands: SurfaceId,
-    /// The surface of the striker's own.
-    skin: Option<(SurfaceId, Isometry3<f64>)>,
+    two: Two,
     body: Body,
-    /// Unit normal along which it flies.
-    down: Vector3<f64>,
     /// Where Rapier left it.
     left: Point3<f64>,
 }
@@ -48,70 +40,30 @@ pub(crate) struct Outcome {
     pub steps: u64,
     pub node_evaluations: u64,
     pub contact_time: f64,
-    /// Volumes displaced [m3].
-    pub worn: Vec<(SurfaceId, f64)>,
+    pub worn: Volumes,
 }
 
 impl Striker {
-    /// Who of a pair strikes whom, in the frame of the surface that stands; None where neither has a
-    /// shape that can strike. `own` are the places of their surfaces among all.
-    pub fn of(
-        pair: &ContactPair,
-        own: [Option<usize>; 2],
-        blow: &Blow,
-        surfaces: &[WornCollider],
-        world: &WorldView<'_>,
-    ) -> Option<Self> {
-        let handles = [pair.collider1, pair.collider2];
-        let [first, second] = handles.map(|handle| world.colliders.get(handle));
-        let colliders = [first?, second?];
-        // The first stands where it can.
-        [0, 1].into_iter().find_map(|stands| {
-            let strikes = 1 - stands;
-            let worn = &surfaces[own[stands]?];
-            let pose = worn.pose(colliders[stands]);
-            let towards = if stands == 0 { -1.0 } else { 1.0 };
-            // Where their laws cannot meet, the one that stands wears alone.
-            let skin = own[strikes].filter(|&at| can_meet(&surfaces[at].surface, &worn.surface));
-            let skin = skin.map(|at| &surfaces[at]);
-            let (mut body, skin) = Self::body(colliders[strikes], skin, worn, &pose)?;
-            let down = pose.inverse_transform_vector(&(blow.normal * towards));
-            let sliding = pose.inverse_transform_vector(&blow.sliding) * -towards;
-            let left = body.state.position;
-            let back = blow.overlap.max(0.0) + CLEAR * worn.surface.pitch();
-            body.state.position -= down * back;
-            body.state.velocity = down * blow.speed() + sliding;
-            body.inertia = Inertia { mass: blow.mass, tensor: Matrix3::identity() };
-            let skin = own[strikes].map(SurfaceId).zip(skin);
-            Some(Self { stands: SurfaceId(own[stands]?), skin, body, down, left })
-        })
-    }
-
-    /// The body of a striking collider, at rest in the frame at `pose` of the surface of `stands`, and
-    /// where the surface of its own lies in it.
-    fn body(
-        collider: &Collider,
-        skin: Option<&WornCollider>,
-        stands: &WornCollider,
-        pose: &Isometry3<f64>,
-    ) -> Option<(Body, Option<Isometry3<f64>>)> {
-        let Some(skin) = skin.filter(|skin| !skin.surface.is_flat()) else {
-            let part = stands.bounds.placed_by(pose).grown(stands.bounds.half().norm());
-            return wall::striker(collider, &part, pose).map(|body| (locked(body), None));
+    /// The body of a blow, on its way back from where Rapier has left it after a step of `dt` [s]: above
+    /// where it was before the step, for which Rapier found the normal.
+    pub fn new(two: Two, blow: &Blow, surfaces: &[WornCollider], dt: f64) -> Self {
+        let worn = &surfaces[two.roles.stands.0];
+        let Body { shape, state, .. } = two.body.clone();
+        let left = state.position;
+        let back = blow.overlap.max(0.0) + CLEAR * worn.surface.pitch();
+        let [sliding, drift] = match two.roles.first_stands {
+            true => [blow.sliding, blow.drifts[1]],
+            false => [-blow.sliding, blow.drifts[0]],
         };
-        let Extent { low, high } = skin.bounds;
-        let centre = nalgebra::center(&low, &high);
-        let nodes = skin.surface.nodes();
-        let places = (0..nodes.len()).map(|i| nodes.rest_position[i]);
-        let radius = places.map(|x| (x - centre).norm()).fold(0.0, f64::max);
-        // The ball around it, about whose centre it flies.
-        let shape =
-            Shape::union(vec![Piece::Ball(Ball { centre: Point3::origin(), radius })]).ok()?;
-        let frame = pose.inverse() * skin.pose(collider);
-        let state = State { rotation: frame.rotation, ..State::at(frame * centre) };
-        let inertia = Inertia::immovable();
-        let body = Body { shape, inertia, state, rotation_locked: true };
-        Some((body, Some(Isometry3::from(-centre.coords))))
+        let sliding = two.frame.inverse_transform_vector(&sliding);
+        let went = two.frame.inverse_transform_vector(&drift) * dt;
+        let state = State {
+            position: left - two.down * back - went,
+            velocity: two.down * blow.speed() + sliding,
+            ..state
+        };
+        let inertia = Inertia { mass: blow.mass, tensor: Matrix3::identity() };
+        Self { two, body: Body { shape, inertia, state, rotation_locked: true }, left }
     }
 
     /// Lets the two collide; the surfaces keep what it did, also before an error.
@@ -121,31 +73,21 @@ impl Striker {
         blow: &Blow,
         settings: EncounterSettings,
     ) -> (Outcome, Result<(), PhysicsError>) {
-        let mut ids = vec![self.stands];
-        ids.extend(self.skin.map(|(id, _)| id));
         let mut outcome = Outcome::default();
-        let mut owned = micro::owned(surfaces, &ids);
-        let Some(surface) = owned.next() else { return (outcome, Ok(())) };
-        let skin = owned.next().zip(self.skin).map(|(surface, (_, pose))| Skin { surface, pose });
-        let encounter = match &skin {
+        let Some(mut placed) = self.two.roles.place(surfaces) else { return (outcome, Ok(())) };
+        let [Placed { surface, skin, .. }] = &placed;
+        let encounter = match skin {
             Some(skin) => Encounter::of_two(&self.body, skin, surface, settings),
-            None => Encounter::new(&self.body, [&*surface], settings),
+            None => Encounter::new(&self.body, [&**surface], settings),
         };
         let mut encounter = match encounter {
             Ok(encounter) => encounter,
             Err(error) => return (outcome, Err(error)),
         };
-        let (pose, carrier) = (Isometry3::identity(), None);
-        let mut placed = [Placed { surface, pose, carrier, skin }];
-        lift(&mut encounter, &mut self.body, &self.down, &placed);
+        lift(&mut encounter, &mut self.body, &self.two.down, &placed);
         let done = self.fly(&mut encounter, &mut placed, blow, settings.step_limit, &mut outcome);
         encounter.end(&mut placed);
-        let [Placed { surface, skin, .. }] = placed;
-        let gained = |surface: &mut Surface| surface.settle().displaced();
-        outcome.worn.push((self.stands, gained(surface)));
-        if let (Some(skin), Some((id, _))) = (skin, self.skin) {
-            outcome.worn.push((id, gained(skin.surface)));
-        }
+        outcome.worn = self.two.roles.gained(placed);
         outcome.ledger = *encounter.ledger();
         (outcome, done)
     }
@@ -171,8 +113,8 @@ impl Striker {
             outcome.node_evaluations += done.node_evaluations;
             outcome.contact_time += done.contact_time;
             touched |= done.contact_time > 0.0;
-            let beyond = (self.body.state.position - self.left).dot(&self.down) > far;
-            let leaves = touched && self.body.state.velocity.dot(&self.down) <= 0.0;
+            let beyond = (self.body.state.position - self.left).dot(&self.two.down) > far;
+            let leaves = touched && self.body.state.velocity.dot(&self.two.down) <= 0.0;
             let apart = !encounter.in_contact() && (leaves || beyond);
             if done.exited || apart {
                 break;
@@ -200,8 +142,4 @@ fn lift(encounter: &mut Encounter, body: &mut Body, down: &Vector3<f64>, placed:
         }
         body.state.position -= down * depth;
     }
-}
-
-fn locked(body: Body) -> Body {
-    Body { rotation_locked: true, ..body }
 }

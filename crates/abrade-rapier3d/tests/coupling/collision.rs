@@ -1,8 +1,8 @@
 //! Wearing bodies among each other: blows as collisions of two.
 
 use crate::plugin::abrade::{
-    Body, Carrier, Encounter, EncounterSettings, Inertia, Loads, Material, Placed, Shape, Skin,
-    State, Surface, SurfaceLaws, TriangleMesh, Until,
+    Body, Carrier, Encounter, EncounterSettings, Hull, Inertia, Loads, Material, Placed, Shape,
+    Skin, State, Surface, SurfaceLaws, TriangleMesh, Until, cuboid_vertices,
 };
 use crate::plugin::rapier::prelude::*;
 use crate::plugin::{SurfaceId, WearSettings, WearWorld, scalar};
@@ -13,13 +13,12 @@ const DENSITY: f64 = 2000.0;
 const HARDNESS: f64 = 1e6;
 
 fn ball() -> Surface {
-    let material = Material {
-        hardness: HARDNESS,
-        shear_ratio: 0.25,
-        young: Some(1e8),
-        poisson: 0.3,
-        friction: 0.3,
-    };
+    ball_of(HARDNESS)
+}
+
+fn ball_of(hardness: f64) -> Surface {
+    let material =
+        Material { hardness, shear_ratio: 0.25, young: Some(1e8), poisson: 0.3, friction: 0.3 };
     let mesh = TriangleMesh::sphere(RADIUS, RADIUS / 12.0).expect("a sphere");
     Surface::mesh(&mesh, SurfaceLaws::of(material)).expect("a surface")
 }
@@ -44,6 +43,10 @@ impl Rig {
 
     /// A ball at `x` [m] that moves along x at `speed` [m/s]; fixed without one.
     fn add(&mut self, x: f64, speed: Option<f64>) {
+        self.add_of(HARDNESS, x, speed);
+    }
+
+    fn add_of(&mut self, hardness: f64, x: f64, speed: Option<f64>) {
         let n = scalar::narrow;
         let builder = match speed {
             Some(speed) => RigidBodyBuilder::dynamic().linvel(Vector::X * n(speed)),
@@ -51,8 +54,20 @@ impl Rig {
         };
         let proxy = ColliderBuilder::ball(n(RADIUS)).density(n(DENSITY)).friction(n(0.0));
         let (body, proxy) = self.world.insert(builder.translation(Vector::X * n(x)), proxy);
-        let id = self.wear.insert(ball(), proxy, &mut self.world.colliders).expect("a proxy");
+        let id = self.wear.insert(ball_of(hardness), proxy, &mut self.world.colliders);
+        let id = id.expect("a proxy");
         self.balls.push((body, id));
+    }
+
+    /// A ball beside ball `of`, which goes along with it, and at `aside` [m/s] with it along y.
+    fn add_beside(&mut self, of: usize, aside: f64) {
+        let n = scalar::narrow;
+        let at = self.world.bodies[self.balls[of].0].translation();
+        let speed = self.world.bodies[self.balls[of].0].linvel();
+        self.add(scalar::wide(at.x), Some(scalar::wide(speed.x)));
+        let beside = &mut self.world.bodies[self.balls.last().expect("a ball").0];
+        beside.set_translation(Vector::new(at.x, at.y + n(2.02 * RADIUS), at.z), true);
+        beside.set_linvel(Vector::new(speed.x, n(aside), 0.0), true);
     }
 
     fn run(&mut self, time: f64) {
@@ -67,28 +82,51 @@ impl Rig {
     }
 }
 
+/// Two balls that come together in the core.
+struct Meeting {
+    hardness: [f64; 2],
+    /// Speed of approach, and of the first along y [m/s].
+    speed: f64,
+    aside: f64,
+    /// None of them turns.
+    locked: bool,
+}
+
+impl Meeting {
+    /// Volumes that they lose.
+    fn volumes(&self) -> [f64; 2] {
+        let mut inertia = Inertia::of_ball(RADIUS, DENSITY);
+        if self.locked {
+            inertia.tensor *= 1e9;
+        }
+        let at = |x: f64, v: f64| State {
+            velocity: Vector3::x() * v,
+            ..State::at(Point3::new(x * RADIUS, 0.0, 0.0))
+        };
+        let shape = Shape::ball(RADIUS).expect("a ball");
+        let mut state = at(-1.001, 0.5 * self.speed);
+        state.velocity.y = self.aside;
+        let mut body = Body { shape, inertia, state, rotation_locked: false };
+        let [mut own, mut other] = self.hardness.map(ball_of);
+        let skin = Skin { surface: &mut own, pose: Isometry3::identity() };
+        let settings = EncounterSettings::default();
+        let mut encounter =
+            Encounter::of_two(&body, &skin, &other, settings).expect("an encounter");
+        let state = at(1.001, -0.5 * self.speed);
+        let loads = Loads::default();
+        let carrier = Some(Carrier { state, inertia: Some(inertia), loads });
+        let pose = state.pose();
+        let mut placed = [Placed { surface: &mut other, pose, carrier, skin: Some(skin) }];
+        let until = Until::FirstExit;
+        encounter.advance(&mut body, &mut placed, &loads, 1.0, until, &mut ()).expect("a contact");
+        [own, other].map(|surface| surface.worn().displaced())
+    }
+}
+
 /// Volume that two balls lose that come together at `speed` [m/s], in the core.
 fn reference(speed: f64) -> f64 {
-    let inertia = Inertia::of_ball(RADIUS, DENSITY);
-    let at = |x: f64, v: f64| State {
-        velocity: Vector3::x() * v,
-        ..State::at(Point3::new(x * RADIUS, 0.0, 0.0))
-    };
-    let shape = Shape::ball(RADIUS).expect("a ball");
-    let state = at(-1.001, 0.5 * speed);
-    let mut body = Body { shape, inertia, state, rotation_locked: false };
-    let [mut own, mut other] = [ball(), ball()];
-    let skin = Skin { surface: &mut own, pose: Isometry3::identity() };
-    let settings = EncounterSettings::default();
-    let mut encounter = Encounter::of_two(&body, &skin, &other, settings).expect("an encounter");
-    let state = at(1.001, -0.5 * speed);
-    let loads = Loads::default();
-    let carrier = Some(Carrier { state, inertia: Some(inertia), loads });
-    let pose = state.pose();
-    let mut placed = [Placed { surface: &mut other, pose, carrier, skin: Some(skin) }];
-    let until = Until::FirstExit;
-    encounter.advance(&mut body, &mut placed, &loads, 1.0, until, &mut ()).expect("a contact");
-    own.worn().displaced() + other.worn().displaced()
+    let hardness = [HARDNESS; 2];
+    Meeting { hardness, speed, aside: 0.0, locked: false }.volumes().iter().sum()
 }
 
 /// Two balls that come together at `speed` [m/s], with another beside the first on its way, or alone.
@@ -139,6 +177,95 @@ fn two_balls_that_collide_wear_as_in_the_core() {
     }
 }
 
+/// Fails for a blow of two of which both wear, whichever comes first, or the harder one.
+#[test]
+fn the_softer_of_two_wears_in_a_crowd() {
+    for hardness in [[HARDNESS, 4.0 * HARDNESS], [4.0 * HARDNESS, HARDNESS]] {
+        let core = Meeting { hardness, speed: 1.0, aside: 0.0, locked: false }.volumes();
+        let mut rig = Rig::new(1.0 / 240.0);
+        rig.add_of(hardness[0], -0.021, Some(0.5));
+        rig.add_of(hardness[1], 0.021, Some(-0.5));
+        rig.add_beside(0, 0.0);
+        rig.run(0.1);
+        let volumes = rig.volumes();
+        println!("{volumes:?}, in the core {core:?}");
+        let soft = if hardness[0] < hardness[1] { 0 } else { 1 };
+        assert!(volumes[1 - soft] == 0.0 && core[1 - soft] == 0.0);
+        assert!((volumes[soft] / core[soft] - 1.0).abs() < 5e-3);
+        assert_eq!(rig.wear.counters().collision, 1);
+    }
+}
+
+/// Fails for a striker that flies on from where the step has left it, beside the place of the blow.
+#[test]
+fn a_blow_that_slides_wears_nearly_as_in_the_core() {
+    let (aside, dt) = (0.6, 1.0 / 240.0);
+    let hardness = [HARDNESS; 2];
+    let core: f64 = Meeting { hardness, speed: 1.0, aside, locked: true }.volumes().iter().sum();
+    let mut rig = Rig::new(dt);
+    rig.add(-0.021, Some(0.5));
+    rig.add(0.021, Some(-0.5));
+    rig.add_beside(0, aside);
+    // It meets the other where that is.
+    let n = scalar::narrow;
+    let time = (0.042 - 2.0 * RADIUS) / 1.0;
+    let first = &mut rig.world.bodies[rig.balls[0].0];
+    first.set_translation(Vector::new(n(-0.021), n(-aside * time), n(0.0)), true);
+    first.set_linvel(Vector::new(n(0.5), n(aside), n(0.0)), true);
+    rig.run(0.1);
+    let ratio = (rig.volumes()[0] + rig.volumes()[1]) / core;
+    println!("{ratio:.4} of the core");
+    // Rapier meets them up to a step too early, where they approach more slowly: 0.93^2.
+    assert!(ratio > 0.8 && ratio < 1.0, "{ratio}");
+    assert_eq!(rig.wear.counters().collision, 1);
+}
+
+/// Volume that a ball loses that strikes a wall which moves at `speed` [m/s] against it, in the core.
+fn reference_of_wall(speed: f64) -> f64 {
+    let half = Vector3::repeat(0.5);
+    let (hull, _, _) = Hull::solid(&cuboid_vertices(&half), 1.0).expect("a wall");
+    let shape = Shape::hull(hull);
+    let state = State::at(Point3::new(0.5, 0.0, 0.0));
+    let mut wall = Body { shape, inertia: Inertia::immovable(), state, rotation_locked: true };
+    let mut surface = ball();
+    let at = State::at(Point3::new(-1.001 * RADIUS, 0.0, 0.0));
+    let state = State { velocity: Vector3::x() * speed, ..at };
+    let inertia = Some(Inertia::of_ball(RADIUS, DENSITY));
+    let loads = Loads::default();
+    let settings = EncounterSettings::default();
+    let mut encounter = Encounter::new(&wall, [&surface], settings).expect("an encounter");
+    let carrier = Some(Carrier { state, inertia, loads });
+    let mut placed = [Placed { surface: &mut surface, pose: state.pose(), carrier, skin: None }];
+    encounter
+        .advance(&mut wall, &mut placed, &loads, 0.01, Until::Duration, &mut ())
+        .expect("a blow");
+    surface.worn().displaced()
+}
+
+/// Fails for a wall that does not wear what strikes it among others, and for a speed over the ground
+/// where the wall moves.
+#[test]
+fn a_blow_on_a_wall_wears_as_in_the_core() {
+    for (led, speed) in [(0.0, 1.0), (-0.6, 0.4)] {
+        let core = reference_of_wall(1.0);
+        for dt in [1.0 / 240.0, 1e-3] {
+            let n = scalar::narrow;
+            let mut rig = Rig::new(dt);
+            rig.add(-0.021, Some(speed));
+            rig.add_beside(0, 0.0);
+            let body = RigidBodyBuilder::kinematic_velocity_based().linvel(Vector::X * n(led));
+            let body = if led == 0.0 { RigidBodyBuilder::fixed() } else { body };
+            let wall = ColliderBuilder::cuboid(n(0.5), n(0.5), n(0.5)).friction(n(0.0));
+            rig.world.insert(body.translation(Vector::X * n(0.5)), wall);
+            rig.run(0.05);
+            let (volumes, counters) = (rig.volumes(), rig.wear.counters());
+            println!("{led} {dt:.4}: {volumes:?}, in the core {core:e}, {counters:?}");
+            assert!(volumes.iter().all(|volume| (volume / core - 1.0).abs() < 5e-3));
+            assert_eq!(counters.collision, 2);
+        }
+    }
+}
+
 /// Fails for a blow that is not handed on.
 #[test]
 fn a_blow_is_handed_on_through_a_row() {
@@ -180,15 +307,28 @@ fn surfaces_that_cannot_meet_wear_one_of_two() {
     assert_eq!(rig.wear.counters().refused, 0);
 }
 
-/// Fails for wear by what only lies on something.
+/// Fails for wear by what lies on something under less than moves a node, and for wear that goes on
+/// where it is more.
 #[test]
-fn what_lies_still_wears_nothing() {
-    let mut rig = Rig::new(1.0 / 240.0);
-    rig.world.gravity = Vector::X * scalar::narrow(-9.81);
-    rig.add(0.0, None);
-    for at in 1..5 {
-        rig.add(f64::from(at) * 0.02, Some(0.0));
+fn what_lies_still_wears_nothing_or_once() {
+    let least = 0.25 * HARDNESS * ball().least_area() / 1f64.hypot(0.3);
+    let weight = 4.0 * Inertia::of_ball(RADIUS, DENSITY).mass;
+    for part in [0.9, 5.0] {
+        let mut rig = Rig::new(1.0 / 240.0);
+        rig.world.gravity = Vector::X * scalar::narrow(-part * least / weight);
+        rig.add(0.0, None);
+        for at in 1..5 {
+            rig.add(f64::from(at) * 0.02, Some(0.0));
+        }
+        rig.run(0.2);
+        let (first, steps) = (rig.volumes(), rig.wear.counters().steps);
+        println!("{part}: {first:?} {:?}", rig.wear.counters());
+        rig.run(0.8);
+        assert_eq!((rig.volumes(), rig.wear.counters().steps), (first.clone(), steps));
+        assert_eq!(rig.wear.counters().collision, 0);
+        match part < 1.0 {
+            true => assert!(first == vec![0.0; 5] && steps == 0),
+            false => assert!(first[0] > 0.0 && first[1] > 0.0),
+        }
     }
-    rig.run(1.0);
-    assert_eq!(rig.volumes(), vec![0.0; 5]);
 }

@@ -8,6 +8,7 @@ mod gate;
 mod hail;
 mod hooks;
 mod independence;
+mod lying;
 mod query_collider;
 mod query_tiles;
 mod renewal;

@@ -21,7 +21,7 @@ pub struct Case {
     pub after: usize,
 }
 
-pub const CASES: [Case; 7] = [
+pub const CASES: [Case; 8] = [
     Case {
         name: "impacts at tiny steps",
         world: impacts,
@@ -39,6 +39,13 @@ pub const CASES: [Case; 7] = [
     Case {
         name: "pressed and slid",
         world: slider,
+        counted: |counters| counters.quasi_static,
+        before: 12,
+        after: 12,
+    },
+    Case {
+        name: "ground among others",
+        world: ground,
         counted: |counters| counters.quasi_static,
         before: 12,
         after: 12,
@@ -306,4 +313,29 @@ fn hail() -> Save {
         }
     }
     save
+}
+
+/// A ball that slides on a block, along a wall.
+fn ground() -> Save {
+    let radius = 5e-3;
+    let mut world = PhysicsWorld { gravity: v(0.0, 0.0, -2.0), ..PhysicsWorld::default() };
+    world.integration_parameters.dt = n(1.0 / 240.0);
+    world.integration_parameters.length_unit = n(radius);
+    let half = Vector3::new(10e-3, 4e-3, 4e-3);
+    let proxy = ColliderBuilder::cuboid(n(half.x), n(half.y), n(half.z));
+    let proxy = world.colliders.insert(proxy.translation(v(0.0, 0.0, -half.z)).friction(n(0.3)));
+    let wall = ColliderBuilder::cuboid(n(0.1), n(0.01), n(0.01)).friction(n(0.0));
+    world.colliders.insert(wall.translation(v(0.0, radius + 0.01, 0.012)));
+    let mesh = TriangleMesh::cuboid(half, 0.4e-3).expect("a block");
+    let surface = Surface::mesh(&mesh, SurfaceLaws::of(SOFT)).expect("a surface");
+    let settings = WearSettings { ledger: true, step_limit: 3000, ..WearSettings::default() };
+    let mut wear = WearWorld::new(settings);
+    wear.insert(surface, proxy, &mut world.colliders).expect("a proxy");
+    let body = RigidBodyBuilder::dynamic()
+        .translation(v(-5e-3, 0.0, radius))
+        .linvel(v(0.05, 0.0, 0.0))
+        .additional_mass(n(10.0))
+        .lock_rotations();
+    world.insert(body, ColliderBuilder::ball(n(radius)).density(n(0.0)).friction(n(0.0)));
+    Save { world, wear }
 }

@@ -1,0 +1,204 @@
+//! One of two that is pressed against the surface that stands, from step to step.
+
+use abrade::{Advance, Body, EncounterSettings, Hold, Inertia, Ledger, PhysicsError};
+use abrade::{Pressed, State};
+use nalgebra::{Isometry3, Vector3};
+use rapier::geometry::Collider;
+use rapier::parry::shape::TypedShape;
+
+use crate::collision::passage::Passage;
+use crate::collision::two::{Roles, Two};
+use crate::micro::Volumes;
+use crate::quasi_static::{LIMIT, SAMPLES};
+use crate::surface::{SurfaceId, WornCollider};
+
+/// Most angle between two balances of the load [rad].
+const ANGLE: f64 = 0.05;
+/// Pitches in which a search for the height of two wearing surfaces begins: their nodes see no
+/// further than 0.3.
+const SIGHT: f64 = 0.1;
+/// Clearance at the start, in pitches.
+const CLEAR: f64 = 0.02;
+/// Pitches of its way for which a contact should not be broken.
+const YOUNG: f64 = 50.0;
+/// Radii of the surface that stands by which it stays on the part of a wall that is known.
+const PART: f64 = 0.5;
+
+/// A contact of two that is pressed.
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Rub {
+    roles: Roles,
+    pressed: Pressed,
+    /// In the frame of the surface that stands, at the height at which the load is balanced.
+    body: Body,
+    /// Frame of the body in that of its collider.
+    local: Isometry3<f64>,
+    /// Frame of the surface in that of its collider.
+    offset: Isometry3<f64>,
+    /// Where the surface began in the frame of the other collider, and how far it may go from there
+    /// [m].
+    began: Isometry3<f64>,
+    reach: f64,
+    /// Way since then [m].
+    way: f64,
+}
+
+/// A way under a load, in a step.
+pub(crate) struct Stretch<'a> {
+    pub passage: &'a Passage,
+    /// Frame of the second collider in that of the first where it begins, and how far it goes [m].
+    pub start: Isometry3<f64>,
+    pub way: f64,
+    /// Unit normal from the first to the second, in the world.
+    pub normal: Vector3<f64>,
+    /// Load [N], and the time of the step [s].
+    pub load: f64,
+    pub dt: f64,
+}
+
+impl Rub {
+    /// The contact of `two`, whose `other` collider is at the start of a stretch; Rapier lets them
+    /// overlap by `overlap` [m].
+    pub fn new(
+        two: &Two,
+        other: &Collider,
+        stretch: &Stretch<'_>,
+        overlap: f64,
+        surfaces: &mut [WornCollider],
+        settings: EncounterSettings,
+    ) -> Result<Self, PhysicsError> {
+        let Stretch { passage, start, .. } = stretch;
+        let (roles, first) = (two.roles, two.roles.first_stands);
+        let worn = &surfaces[roles.stands.0];
+        let back = overlap.max(0.0) + CLEAR * worn.surface.pitch();
+        let shape = other.shape().as_typed_shape();
+        let is_cut = matches!(shape, TypedShape::HalfSpace(_) | TypedShape::Cuboid(_));
+        let reach = if is_cut { PART * worn.bounds.half().norm() } else { f64::INFINITY };
+        let offset = passage.frame(first, 1.0).inverse() * two.frame;
+        let local = seen(&passage.at(1.0), first).inverse() * offset * two.body.state.pose();
+        let inertia = Inertia::immovable();
+        let body = Body { inertia, rotation_locked: false, ..two.body.clone() };
+        let placed = roles.place(surfaces);
+        let pressed = match placed.as_ref().map(|[placed]| (&*placed.surface, &placed.skin)) {
+            Some((surface, Some(skin))) => Pressed::of_two(&body, skin, surface, settings),
+            Some((surface, None)) => Pressed::new(&body, [surface], settings),
+            None => Pressed::new(&body, [], settings),
+        }?;
+        let began = seen(start, first).inverse();
+        let mut rub = Self { roles, pressed, body, local, offset, began, reach, way: 0.0 };
+        rub.body.state = rub.state(start);
+        rub.body.state.position -= rub.down(stretch, 0.0) * back;
+        Ok(rub)
+    }
+
+    /// True while what it knows of a wall reaches to where the second collider is at `pose` in the
+    /// frame of the first.
+    pub fn holds(&self, pose: &Isometry3<f64>) -> bool {
+        let place = seen(pose, self.roles.first_stands).inverse().translation.vector;
+        (place - self.began.translation.vector).norm() < self.reach
+    }
+
+    /// Goes along; returns the volumes displaced, also before an error.
+    pub fn advance(
+        &mut self,
+        stretch: &Stretch<'_>,
+        surfaces: &mut [WornCollider],
+        done: &mut Advance,
+    ) -> (Volumes, Result<(), PhysicsError>) {
+        let Stretch { passage, start, way, load, dt, .. } = *stretch;
+        self.way += way;
+        let pitch = self.pitch(surfaces);
+        let angle = start.rotation.angle_to(&passage.at(1.0).rotation);
+        let parts = (way * SAMPLES / pitch).max(angle / ANGLE).ceil().clamp(1.0, LIMIT as f64);
+        let increment = if self.roles.skin.is_some() { SIGHT } else { 1.0 / SAMPLES } * pitch;
+        let Some(mut placed) = self.roles.place(surfaces) else { return (Volumes::new(), Ok(())) };
+        let mut result = Ok(());
+        for part in 1..=parts as u32 {
+            let share = f64::from(part) / parts;
+            let end = self.state(&passage.at(share));
+            let load = self.down(stretch, share) * load;
+            let hold = Hold { load, duration: dt / parts, increment, limit: 1 };
+            match self.pressed.advance(&mut self.body, &mut placed, &end, &hold, &mut ()) {
+                Ok(advance) => {
+                    done.steps += advance.steps;
+                    done.node_evaluations += advance.node_evaluations;
+                }
+                Err(error) => {
+                    result = Err(error);
+                    break;
+                }
+            }
+        }
+        (self.roles.gained(placed), result)
+    }
+
+    /// Ends the contact: overhangs break off. Returns its ledger.
+    pub fn end(mut self, surfaces: &mut [WornCollider]) -> Ledger {
+        if let Some(mut placed) = self.roles.place(surfaces) {
+            self.pressed.end(&mut placed);
+            self.roles.gained(placed);
+        }
+        *self.pressed.ledger()
+    }
+
+    pub fn ledger(&self) -> &Ledger {
+        self.pressed.ledger()
+    }
+
+    /// True for a contact with `surface`.
+    pub fn is_on(&self, surface: SurfaceId) -> bool {
+        let skin = self.roles.skin.map(|(id, _)| id);
+        self.roles.stands == surface || skin == Some(surface)
+    }
+
+    /// True for one that has not gone far yet, and would miss what was broken off.
+    pub fn is_young(&self, surfaces: &[WornCollider]) -> bool {
+        self.way < YOUNG * self.pitch(surfaces)
+    }
+
+    /// The finer pitch of its surfaces [m].
+    fn pitch(&self, surfaces: &[WornCollider]) -> f64 {
+        let pitches = self.roles.surfaces().into_iter().map(|id| surfaces[id.0].surface.pitch());
+        pitches.fold(f64::INFINITY, f64::min)
+    }
+
+    /// State of the body, in the frame of the surface, where the second collider is at `pose` in the
+    /// frame of the first.
+    fn state(&self, pose: &Isometry3<f64>) -> State {
+        let seat = self.offset.inverse() * seen(pose, self.roles.first_stands) * self.local;
+        State { rotation: seat.rotation, ..State::at(seat.translation.vector.into()) }
+    }
+
+    /// Unit normal into the surface after a share of the step.
+    fn down(&self, stretch: &Stretch<'_>, share: f64) -> Vector3<f64> {
+        let first = self.roles.first_stands;
+        let into = if first { -stretch.normal } else { stretch.normal };
+        (stretch.passage.frame(first, share) * self.offset).inverse_transform_vector(&into)
+    }
+}
+
+/// Frame of the other collider in that of the one that stands, from that of the second in the first.
+fn seen(pose: &Isometry3<f64>, first_stands: bool) -> Isometry3<f64> {
+    if first_stands { *pose } else { pose.inverse() }
+}
+
+#[cfg(feature = "serde-serialize")]
+impl Rub {
+    /// The surfaces of the two.
+    pub fn surfaces(&self) -> Vec<SurfaceId> {
+        self.roles.surfaces()
+    }
+
+    /// True for frames that Rapier's numbers can say, of surfaces that it was made with.
+    pub fn is_sound(&self, surfaces: &[WornCollider]) -> bool {
+        use crate::snapshot::{is_frame, is_state};
+        let skin = self.roles.skin.as_ref().is_none_or(|(_, pose)| is_frame(pose));
+        let frames = [&self.local, &self.offset, &self.began].into_iter().all(is_frame);
+        let lengths = self.way >= 0.0 && self.reach > 0.0;
+        let stands = &*surfaces[self.roles.stands.0].surface;
+        skin && frames
+            && lengths
+            && is_state(&self.body.state, &Isometry3::identity())
+            && self.pressed.is_made_for([stands])
+    }
+}
