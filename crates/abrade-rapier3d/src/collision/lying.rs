@@ -178,8 +178,8 @@ impl WearWorld {
                 return Volumes::new();
             };
             let settings = self.settings.encounter();
-            let (surfaces, overlap) = (&mut self.surfaces, blow.overlap);
-            match Rub::new(&two, other, stretch, overlap, surfaces, settings) {
+            let surfaces = &mut self.surfaces;
+            match Rub::new(&two, other, stretch, blow, surfaces, settings) {
                 Ok(rub) => lying.rub = Some(rub),
                 Err(error) => {
                     self.give_up(body, surface, error);

@@ -2,10 +2,11 @@
 
 use abrade::{Advance, Body, EncounterSettings, Hold, Inertia, Ledger, PhysicsError};
 use abrade::{Pressed, State};
-use nalgebra::{Isometry3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Vector3};
 use rapier::geometry::Collider;
 use rapier::parry::shape::TypedShape;
 
+use crate::collision::blow::Blow;
 use crate::collision::passage::Passage;
 use crate::collision::two::{Roles, Two};
 use crate::micro::Volumes;
@@ -57,26 +58,26 @@ pub(crate) struct Stretch<'a> {
 }
 
 impl Rub {
-    /// The contact of `two`, whose `other` collider is at the start of a stretch; Rapier lets them
-    /// overlap by `overlap` [m].
+    /// The contact of `two`, whose `other` collider is at the start of a stretch, as Rapier sees it.
     pub fn new(
         two: &Two,
         other: &Collider,
         stretch: &Stretch<'_>,
-        overlap: f64,
+        blow: &Blow,
         surfaces: &mut [WornCollider],
         settings: EncounterSettings,
     ) -> Result<Self, PhysicsError> {
         let Stretch { passage, start, .. } = stretch;
         let (roles, first) = (two.roles, two.roles.first_stands);
         let worn = &surfaces[roles.stands.0];
-        let back = overlap.max(0.0) + CLEAR * worn.surface.pitch();
+        let back = blow.overlap.max(0.0) + CLEAR * worn.surface.pitch();
         let shape = other.shape().as_typed_shape();
         let is_cut = matches!(shape, TypedShape::HalfSpace(_) | TypedShape::Cuboid(_));
         let reach = if is_cut { PART * worn.bounds.half().norm() } else { f64::INFINITY };
         let offset = passage.frame(first, 1.0).inverse() * two.frame;
         let local = seen(&passage.at(1.0), first).inverse() * offset * two.body.state.pose();
-        let inertia = Inertia::immovable();
+        // Without effect on the balance of a load.
+        let inertia = Inertia { mass: blow.mass, tensor: Matrix3::identity() };
         let body = Body { inertia, rotation_locked: false, ..two.body.clone() };
         let placed = roles.place(surfaces);
         let pressed = match placed.as_ref().map(|[placed]| (&*placed.surface, &placed.skin)) {
