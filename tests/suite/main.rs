@@ -4,6 +4,7 @@ mod closed;
 mod convergence;
 mod drive;
 mod foundation;
+mod led;
 mod ledger;
 mod moving;
 mod nature;

@@ -9,9 +9,11 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use crate::body::{Body, Inertia, State};
 use crate::carried::Grip;
+use crate::contact::Contact;
 use crate::encounter::{Loads, Placed};
 use crate::error::PhysicsError;
-use crate::integrate::Integrator;
+use crate::flight::{time_to_close, top_speed};
+use crate::integrate::{ETA, Integrator};
 use crate::node_law::Motion;
 use crate::projection::Change;
 use crate::rotation::Dynamics;
@@ -91,6 +93,12 @@ impl<'a> Placed<'a> {
         Self { surface, pose, carrier: None, skin: None }
     }
 
+    /// True for a surface that no contact moves: at rest, or led.
+    pub(crate) fn keeps_its_motion(&self) -> bool {
+        let inertia = self.carrier.as_ref().and_then(|carrier| carrier.inertia);
+        inertia.is_none_or(|inertia| inertia.is_immovable())
+    }
+
     /// Velocity and spin of a body in `state` over the surface's material below it.
     pub(crate) fn relative(&self, state: &State) -> [Vector3<f64>; 2] {
         match &self.carrier {
@@ -149,6 +157,9 @@ impl Carrier {
     }
 }
 
+/// Way of a led body in a step against springs that nothing moves, in pitches at the accuracy of
+/// `ETA`: the deepest point of its path over a node lies between two looks.
+const LED_PITCH: f64 = 0.03;
 /// Growth of the inertial forces over a flight step, and the angle [rad] that bounds it.
 const TURNING: f64 = 2.0;
 const FLIGHT_TURN: f64 = 0.1;
@@ -399,6 +410,20 @@ impl Integrator {
             ride.dynamics.inverse_mass + ride.dynamics.agility() * lever * lever
         };
         trial.omega(&self.dynamics, self.rides.iter().flatten().map(of).fold(0.0, f64::max))
+    }
+
+    /// Longest step of springs between two that nothing moves: they have no frequency to bound it, so
+    /// the way does.
+    pub(crate) fn led_limit(&self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
+        if !self.dynamics.is_immovable() {
+            return f64::INFINITY;
+        }
+        let limit = |(contact, placed): (&Contact, &Placed<'_>)| {
+            let led = placed.keeps_its_motion() && contact.sweep_reach(placed.surface).is_none();
+            let reach = LED_PITCH * self.eta / ETA * placed.surface.pitch();
+            led.then(|| time_to_close(reach, top_speed(placed, body), 0.0))
+        };
+        self.contacts.iter().zip(surfaces).filter_map(limit).fold(f64::INFINITY, f64::min)
     }
 
     /// Makes the last trial the state of the carriers; returns what their damping took [J].

@@ -112,6 +112,9 @@ pub struct Advance {
     pub node_evaluations: u64,
     /// Impulse of the surfaces on the body [N s].
     pub impulse: Vector3<f64>,
+    /// Angular impulse of the surfaces about the body's centre of mass, wherever that was at the time
+    /// [N m s].
+    pub twist: Vector3<f64>,
     /// Time in contact [s].
     pub contact_time: f64,
 }

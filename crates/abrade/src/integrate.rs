@@ -23,7 +23,7 @@ use crate::toll::Toll;
 use crate::trial::{Pull, Trial};
 
 /// eta at an accuracy of 3e-3; the error goes as eta^2.
-const ETA: f64 = 0.1;
+pub(crate) const ETA: f64 = 0.1;
 const ETA_ACCURACY: f64 = 3e-3;
 /// Hard cap of eta; the linear stability limit is 1.18.
 const ETA_LIMIT: f64 = 0.7;
@@ -208,6 +208,8 @@ impl Integrator {
     ) -> Result<Advance, PhysicsError> {
         self.fits(surfaces)?;
         self.mount(surfaces)?;
+        // Nothing acts on a body that is led, or else it would not keep its motion.
+        let loads = if self.dynamics.is_immovable() { &Loads::default() } else { loads };
         let mut done = Advance::default();
         while done.time < duration {
             let remaining = duration - done.time;
@@ -286,14 +288,16 @@ impl Integrator {
         self.contacts.iter().map(Contact::yield_overlap).fold(f64::INFINITY, f64::min)
     }
 
-    /// Longest step of the swept rule: |v| dt <= 0.1 pitch, and 0.4 yield overlaps with springs.
+    /// Longest step of the swept rule: |v| dt <= 0.1 pitch, and 0.4 yield overlaps with springs; and
+    /// of a led body.
     fn sweep_limit(&self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads) -> f64 {
         let limit = |(contact, placed): (&Contact, &Placed<'_>)| {
             let reach = contact.sweep_reach(placed.surface)?;
             let speed = top_speed(placed, body);
             Some(time_to_close(reach, speed, acceleration(placed, body, loads)))
         };
-        self.contacts.iter().zip(surfaces).filter_map(limit).fold(f64::INFINITY, f64::min)
+        let limits = self.contacts.iter().zip(surfaces).filter_map(limit);
+        limits.fold(self.led_limit(body, surfaces), f64::min)
     }
 
     /// Takes one step of at most `dt`; returns its length.
@@ -317,7 +321,7 @@ impl Integrator {
                 return Err(PhysicsError::NotFinite { time: done.contact_time });
             }
             let omega = self.omega(&trial).max(self.damping.rate);
-            let allowed = self.eta / omega;
+            let allowed = (self.eta / omega).min(self.led_limit(body, surfaces));
             if let Some(smaller) = rejected(&trial, dt, allowed) {
                 if dt < f64::MIN_POSITIVE / f64::EPSILON {
                     return Err(PhysicsError::StepVanished { step: dt });
@@ -382,6 +386,7 @@ impl Integrator {
             ledger.history += end.ledger.history;
         }
         done.impulse += end.impulse;
+        done.twist += end.twist;
         done.steps += 1;
         if trial.touching > 0 || self.touching {
             done.contact_time += dt;

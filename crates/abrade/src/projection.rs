@@ -73,7 +73,7 @@ pub(crate) fn balance(Change { a, b }: Change, cost: f64) -> (f64, f64) {
     let discriminant = b * b - 4.0 * a * cost;
     let q = -0.5 * (b + discriminant.max(0.0).sqrt().copysign(b));
     // Both roots in their stable forms; NaN where there is none.
-    let roots = if discriminant >= 0.0 && a > 0.0 { [q / a, cost / q] } else { [f64::NAN; 2] };
+    let roots = if discriminant >= 0.0 { [q / a, cost / q] } else { [f64::NAN; 2] };
     let root = roots
         .into_iter()
         .filter(|l| (low..=high).contains(l))
