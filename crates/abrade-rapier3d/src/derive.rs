@@ -59,6 +59,9 @@ pub(crate) fn shape(body: &RigidBody, colliders: &ColliderSet) -> Result<Shape, 
 
 /// Mass and inertia about the centre of mass.
 pub(crate) fn inertia(body: &RigidBody) -> Result<Inertia, Refusal> {
+    if body.is_kinematic() {
+        return Ok(Inertia::immovable());
+    }
     let local = &body.mass_properties().local_mprops;
     let mass = scalar::wide(local.mass());
     let tensor = scalar::matrix(&local.reconstruct_inertia_matrix());

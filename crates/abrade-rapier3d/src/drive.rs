@@ -37,7 +37,7 @@ impl WearWorld {
         bodies: &RigidBodySet,
     ) -> Result<(), WearError> {
         let rb = bodies.get(handle).filter(|rb| rb.is_kinematic());
-        rb.ok_or(WearError::NoSuchBody { body: handle })?;
+        rb.ok_or(WearError::NotKinematic { body: handle })?;
         let worn = &self.surfaces[surface.0].surface;
         let driven = Driven::new(&mut body, worn, drive, self.settings.encounter())
             .map_err(|source| WearError::Physics { body: handle, surface, source })?;

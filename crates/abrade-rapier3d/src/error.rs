@@ -30,6 +30,12 @@ pub enum WearError {
         /// The handle given.
         body: RigidBodyHandle,
     },
+    /// The body does not exist, or is not kinematic.
+    #[error("there is no kinematic body {body:?}")]
+    NotKinematic {
+        /// The handle given.
+        body: RigidBodyHandle,
+    },
     /// A contact left the reach of the model; Rapier kept the body's contact for that step, or the
     /// body was stopped in its crater.
     #[error("body {body:?} on wear surface {surface}: {source}")]

@@ -118,11 +118,8 @@ fn lead(
     } else if !rb.is_kinematic() {
         return None;
     }
-    if rb.body_type() == RigidBodyType::KinematicPositionBased {
-        let [from, to] = [rb.position(), rb.next_position()].map(scalar::pose);
-        let com = Point3::from(scalar::vector(rb.local_center_of_mass()));
-        state.velocity = (to * com - from * com) / dt;
-        state.spin = (to.rotation * from.rotation.inverse()).scaled_axis() / dt;
+    if rb.is_kinematic() {
+        state = led(rb, state, dt);
     }
     let reach = (nalgebra::center(&extent.low, &extent.high) - state.position).norm()
         + extent.half().norm();
@@ -132,6 +129,19 @@ fn lead(
     let moves = speed * dt > ROUNDINGS * scalar::ROUNDING * place;
     let awake = !rb.is_sleeping() && moves;
     (free.is_some() || moves).then_some(Lead { state, free, loads, speed, awake })
+}
+
+/// The motion over `dt` [s] of a kinematic body that is in `state`: by its velocity, or to its next
+/// position.
+pub(crate) fn led(rb: &RigidBody, state: State, dt: f64) -> State {
+    let (mut velocity, mut spin) = (scalar::vector(rb.linvel()), scalar::vector(rb.angvel()));
+    if rb.body_type() == RigidBodyType::KinematicPositionBased {
+        let to = scalar::pose(rb.next_position());
+        let com = Point3::from(scalar::vector(rb.local_center_of_mass()));
+        velocity = (to * com - state.position) / dt;
+        spin = (to.rotation * state.rotation.inverse()).scaled_axis() / dt;
+    }
+    State { velocity, spin, ..state }
 }
 
 /// The plane below which a body has met the surface for certain: only flat ones at rest have one.

@@ -28,7 +28,7 @@ pub(crate) struct Taken {
     /// Bodies that Rapier keeps in hand, sorted.
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
     held: Vec<((u32, u32), Bearing)>,
-    /// Bodies with the walls that they were carried against.
+    /// Bodies with the walls, and colliders of tools, that they were carried against.
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
     walls: Vec<(RigidBodyHandle, ColliderHandle)>,
     /// Proxies with the hooks that the embedder had set on them, sorted by handle.
@@ -42,7 +42,7 @@ impl Taken {
         self.walls.clear();
     }
 
-    /// Takes the pair of a wearing body and a wall.
+    /// Takes the pair of a wearing body and a wall or a part of a tool.
     pub fn add_wall(&mut self, body: RigidBodyHandle, wall: ColliderHandle) {
         self.walls.push((body, wall));
     }

@@ -2,7 +2,8 @@
 //!
 //! A [`WearWorld`] stands beside the embedder's physics world. Wear surfaces are registered on
 //! colliders (their *proxies*); every dynamic body whose colliders are balls, cuboids, convex
-//! polyhedra or compounds of those wears them, registered or not.
+//! polyhedra or compounds of those wears them, registered or not, and so does every kinematic one that
+//! was made a tool ([`WearWorld::add_tool`]).
 //!
 //! A step goes through these stages:
 //! 1. choose: bodies whose path over the step comes near a wear surface, fixed order;
@@ -39,6 +40,7 @@ mod bins;
 mod booking;
 mod changed;
 mod collision;
+mod cut;
 mod derive;
 mod drive;
 mod error;
@@ -76,6 +78,7 @@ mod steer;
 mod step;
 mod surface;
 mod tiles;
+mod tool;
 mod track;
 mod tracked;
 mod view;
@@ -89,5 +92,6 @@ pub use observer::{MicroStep, WearObserver};
 pub use resolver::{Resolve, Resolver};
 pub use settings::{Counters, StepReport, WearSettings};
 pub use surface::SurfaceId;
+pub use tool::ToolLoad;
 pub use view::WorldView;
 pub use world::WearWorld;

@@ -69,6 +69,7 @@ impl WearWorld {
         let is_rubbed = worn.deepest() < LATE * worn.pitch() && self.is_rubbed(surface);
         is_rubbed
             || holding.next().is_some()
+            || self.tools.iter().any(|tool| tool.touches(surface))
             || self.driven.iter().any(|driven| driven.surface() == surface)
     }
 

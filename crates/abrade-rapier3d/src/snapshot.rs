@@ -14,6 +14,7 @@ use serde::de::{Deserialize, Deserializer, Error as _};
 use serde::ser::{Error as _, Serialize, Serializer};
 
 use crate::collision::{Bore, PairKey};
+use crate::cut::Cut;
 use crate::drive::DrivenBody;
 use crate::guard::Taken;
 use crate::quasi_static::Pressing;
@@ -21,6 +22,7 @@ use crate::query_collider::{Shown, ShownParts};
 use crate::scalar;
 use crate::settings::{Counters, WearSettings};
 use crate::surface::{SurfaceId, WornCollider};
+use crate::tool::Tool;
 use crate::tracked::Tracked;
 use crate::world::{Reasons, WearWorld};
 
@@ -35,6 +37,7 @@ struct Written<'a> {
     bodies: &'a [Option<Tracked>],
     registered: &'a [RigidBodyHandle],
     driven: &'a [DrivenBody],
+    tools: &'a [Tool],
     counters: &'a Counters,
     closed: &'a Ledger,
     reasons: &'a Reasons,
@@ -49,6 +52,7 @@ struct Read {
     bodies: Vec<Option<Tracked>>,
     registered: Vec<RigidBodyHandle>,
     driven: Vec<DrivenBody>,
+    tools: Vec<Tool>,
     counters: Counters,
     closed: Ledger,
     reasons: Reasons,
@@ -69,6 +73,7 @@ impl Serialize for WearWorld {
             taken,
             registered,
             driven,
+            tools,
             counters,
             closed,
             reasons,
@@ -95,6 +100,7 @@ impl Serialize for WearWorld {
             bodies,
             registered,
             driven,
+            tools,
             counters,
             closed,
             reasons,
@@ -115,6 +121,7 @@ impl<'de> Deserialize<'de> for WearWorld {
             bodies,
             registered,
             driven,
+            tools,
             counters,
             closed,
             reasons,
@@ -128,6 +135,7 @@ impl<'de> Deserialize<'de> for WearWorld {
             bodies,
             registered,
             driven,
+            tools,
             counters,
             closed,
             reasons,
@@ -206,7 +214,10 @@ impl Read {
         let mut driven = self.driven.iter();
         let sound =
             driven.all(|d| self.have(&[d.surface()]) && is_state(&d.state(&identity), &identity));
-        require(sound, "a driven body is out of range")
+        require(sound, "a driven body is out of range")?;
+        let cuts = self.tools.iter().flat_map(|tool| &tool.cuts);
+        let sound = |cut: &Cut| cut.is_sound() && cut.surfaces().all(|id| self.have(&[id]));
+        require(cuts.into_iter().all(sound), "a tool cuts a surface that is not there")
     }
 
     fn check_body(&self, tracked: &Tracked) -> Result<(), &'static str> {

@@ -75,6 +75,7 @@ impl WearWorld {
         if !self.surfaces.is_empty() && self.current.dt > 0.0 {
             world.join_new_articulations();
             self.choose(&mut world, &gravity);
+            self.look_at_tools(&mut world);
             let walkers = self.walkers(&world);
             for Walker { reach, .. } in &walkers {
                 let joined = self.current.reach.map_or(*reach, |others| others.joined(reach));
@@ -96,6 +97,7 @@ impl WearWorld {
                 };
                 self.resolve(self.candidates[at], &world, until, observer);
             }
+            self.lead_tools(&world, observer);
             self.strike_walls(&walkers, &world);
             let may_wake = !self.sleepers.is_empty();
             let is_crowded = !self.current.crowded.is_empty();
@@ -155,6 +157,7 @@ impl WearWorld {
             tracked.shadow = steered.settle(rb);
             steer::carry_colliders(rb, world.colliders);
         }
+        self.settle_tools(&mut world);
         self.hold_the_woken(&world);
         if !self.held.is_empty() {
             self.settle_held(&mut world, observer);

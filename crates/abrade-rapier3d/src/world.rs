@@ -27,6 +27,7 @@ use crate::settings::{Counters, WearSettings};
 use crate::shadow;
 use crate::steer::Steered;
 use crate::surface::{SurfaceId, WornCollider};
+use crate::tool::Tool;
 use crate::tracked::Tracked;
 
 /// Wear surfaces and the bodies that wear them, beside a physics world of Rapier's.
@@ -65,6 +66,7 @@ pub struct WearWorld {
     /// What the contacts of crowded surfaces bear, between the steps.
     pub(crate) bores: Bores,
     pub(crate) driven: Vec<DrivenBody>,
+    pub(crate) tools: Vec<Tool>,
     pub(crate) events: Vec<WearEvent>,
     pub(crate) counters: Counters,
     /// Body steps that Micro did not resolve, by who did and why it was not Micro.
@@ -149,13 +151,16 @@ impl WearWorld {
     /// True while a node carries force on the body.
     pub fn in_contact(&self, handle: RigidBodyHandle) -> bool {
         let live = self.tracked(handle).and_then(|tracked| tracked.live.as_ref());
+        let cuts = self.find_tool(handle).map_or(&[][..], |tool| &tool.cuts);
         live.is_some_and(|live| live.encounter.in_contact())
+            || cuts.iter().any(|cut| cut.encounter.in_contact())
     }
 
     /// True while the energies of the body's present encounter still grow: from when it comes near
     /// a surface until it is far from all of them.
     pub fn in_encounter(&self, handle: RigidBodyHandle) -> bool {
         self.tracked(handle).is_some_and(|tracked| tracked.live.is_some())
+            || self.find_tool(handle).is_some_and(|tool| !tool.cuts.is_empty())
     }
 
     fn tracked(&self, handle: RigidBodyHandle) -> Option<&Tracked> {
@@ -182,6 +187,7 @@ impl WearWorld {
         }
         self.driven.iter().for_each(|driven| sum += *driven.ledger());
         self.rub_ledgers().for_each(|ledger| sum += *ledger);
+        self.tools.iter().for_each(|tool| sum += tool.ledger());
         sum
     }
 

@@ -14,5 +14,6 @@ mod query_tiles;
 mod renewal;
 mod rig;
 mod shadow;
+mod tool;
 mod tumble;
 mod wall;

@@ -71,6 +71,13 @@ pub const CASES: [Case; 8] = [
         before: 111,
         after: 100,
     },
+    Case {
+        name: "tool in its groove",
+        world: groove,
+        counted: |counters| counters.micro,
+        before: 3,
+        after: 4,
+    },
     Case { name: "hail", world: hail, counted: |counters| counters.micro, before: 12, after: 24 },
 ];
 
@@ -181,6 +188,23 @@ fn impacts() -> Save {
         let body = body.linvel(v(12.0, 0.0, -33.0)).angvel(v(100.0, -200.0, 50.0));
         save.world.insert(body, ColliderBuilder::new(shape).density(n(2500.0)));
     }
+    save
+}
+
+/// A ball that is led into the plate, turning, and along it.
+fn groove() -> Save {
+    let plate = Plate {
+        size: [30e-3, 12e-3, 0.2e-3],
+        material: SOFT,
+        restitution: 1.0,
+        dt: 1e-3,
+        resolve: Resolve::Auto,
+    };
+    let (mut save, _) = plate.save();
+    let body = RigidBodyBuilder::kinematic_velocity_based().translation(v(-5e-3, 1e-4, 3.1e-3));
+    let body = body.linvel(v(0.5, 0.0, -0.05)).angvel(v(3.0, -20.0, 50.0));
+    let (tool, _) = save.world.insert(body, ColliderBuilder::ball(n(3e-3)));
+    save.wear.add_tool(tool, &save.world.bodies).expect("a kinematic body");
     save
 }
 

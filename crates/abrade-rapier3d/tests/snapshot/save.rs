@@ -37,7 +37,9 @@ impl Save {
         for (handle, rb) in self.world.bodies.iter() {
             let exact = self.wear.state(handle, &self.world.bodies);
             let driven = self.wear.driven_state(handle, &self.world.colliders);
-            text += &format!("{exact:?} {driven:?} {:?}\n", rb.mass_properties().local_mprops);
+            let load = self.wear.tool_load(handle);
+            text +=
+                &format!("{exact:?} {driven:?} {load:?} {:?}\n", rb.mass_properties().local_mprops);
             text += &format!("{:?} {:?} {:?}\n", rb.position(), rb.linvel(), rb.angvel());
         }
         // Everything is looked at closely again after a save was read.
