@@ -12,7 +12,7 @@ use rapier::geometry::{Collider, ColliderHandle};
 use crate::booking::{Booking, Contact};
 use crate::event::Refusal;
 use crate::free::{self, Free};
-use crate::gate::{Course, Lead, Lie};
+use crate::gate::{self, Course, Lead, Lie};
 use crate::observer::{Relay, WearObserver};
 use crate::obstacle::Search;
 use crate::path::Extent;
@@ -50,6 +50,9 @@ impl WearWorld {
     ) -> Result<(), Left> {
         let Some(lie) = Lie::find(&self.lies, surface) else { return Ok(()) };
         let free = lie.lead.and_then(|lead| Some((lead, lead.free?)));
+        if free.is_some_and(|(_, free)| self.lets_sleep(tool.handle, &free, state, world)) {
+            return Ok(());
+        }
         let reach = match &free {
             Some(pair) => Some(self.reach_of_alone(tool, surface, pair, state, world)?),
             None => None,
@@ -212,6 +215,21 @@ impl WearWorld {
     ) -> Vec<ColliderHandle> {
         let (frame, colliders) = (&Isometry3::identity(), &*world.colliders);
         self.obstacles.all_in_way(&Search { bodies, own, track, frame, colliders })
+    }
+
+    /// True for a tool in `state` that stands beside a workpiece that sleeps.
+    fn lets_sleep(
+        &self,
+        tool: RigidBodyHandle,
+        free: &Free,
+        state: &State,
+        world: &WorldView<'_>,
+    ) -> bool {
+        let radius = Tracked::find(&self.bodies, tool).map_or(0.0, |tracked| tracked.radius);
+        let speed = state.velocity.norm() + state.spin.norm() * radius;
+        let place = state.position.coords.norm() + radius;
+        let sleeps = world.bodies.get(free.body).is_some_and(RigidBody::is_sleeping);
+        sleeps && !gate::moves(speed * self.current.dt, place)
     }
 
     /// True for a workpiece that nobody has moved since it was last carried.

@@ -124,11 +124,15 @@ fn lead(
     let reach = (nalgebra::center(&extent.low, &extent.high) - state.position).norm()
         + extent.half().norm();
     let speed = state.velocity.norm() + state.spin.norm() * reach + gain;
-    // What moves by less than its place is rounded by stands still.
-    let place = state.position.coords.norm() + reach;
-    let moves = speed * dt > ROUNDINGS * scalar::ROUNDING * place;
+    let moves = moves(speed * dt, state.position.coords.norm() + reach);
     let awake = !rb.is_sleeping() && moves;
     (free.is_some() || moves).then_some(Lead { state, free, loads, speed, awake })
+}
+
+/// True for a `way` [m] of something that reaches as far as `place` [m] from the origin: what moves by
+/// less than its place is rounded by stands still.
+pub(crate) fn moves(way: f64, place: f64) -> bool {
+    way > ROUNDINGS * scalar::ROUNDING * place
 }
 
 /// The motion over `dt` [s] of a kinematic body that is in `state`: by its velocity, or to its next

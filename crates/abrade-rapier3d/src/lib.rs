@@ -12,7 +12,7 @@
 //!    in Rapier's hands for the step, its contact laid on the worn surface;
 //! 4. resolve (Micro): the others are carried through the whole step in `f64` by
 //!    [`abrade::Encounter`], in a frame that lies on the surface; what was done ahead is taken
-//!    over where it would be the same now;
+//!    over where it would be the same now. Tools are led through the surfaces in their way;
 //! 5. steer: their velocities are set so that Rapier lands where the integration ended, and the
 //!    pairs body x proxy are filtered out;
 //! 6. engine: Rapier's own step, with the embedder's hooks chained behind ours;

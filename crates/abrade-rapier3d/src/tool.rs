@@ -136,8 +136,7 @@ impl WearWorld {
 
     fn look_at_tool(&mut self, tool: &mut Tool, world: &mut WorldView<'_>) {
         let handle = tool.handle;
-        let leads = |rb: &&mut RigidBody| rb.is_kinematic() && rb.is_enabled();
-        let Some(rb) = world.bodies.get_mut(handle).filter(leads) else {
+        let Some(rb) = world.bodies.get_mut(handle).filter(|rb| is_led(rb)) else {
             return self.end_cuts(tool, |_| true);
         };
         let tracked = Tracked::slot(&mut self.bodies, handle);
@@ -185,7 +184,8 @@ impl WearWorld {
         let handle = tool.handle;
         let tracked = Tracked::slot(&mut self.bodies, handle);
         let near = tracked.near.clone();
-        let (Some(rb), Some(&first)) = (world.bodies.get(handle), near.first()) else { return };
+        let rb = world.bodies.get(handle).filter(|rb| is_led(rb));
+        let (Some(rb), Some(&first)) = (rb, near.first()) else { return };
         let own = |worn: &WornCollider| rb.colliders().contains(&worn.proxy);
         let refusal = match tracked.derive(rb, world.colliders) {
             Err(refusal) => Some(refusal),
@@ -224,4 +224,9 @@ impl WearWorld {
             tracked.shadow = Some(Shadow::of(rb, frame, state));
         }
     }
+}
+
+/// True for a body that may be a tool in this step.
+fn is_led(rb: &RigidBody) -> bool {
+    rb.is_kinematic() && rb.is_enabled()
 }

@@ -214,6 +214,20 @@ fn a_tool_may_stop_in_its_groove_and_be_taken_away() {
     }
 }
 
+/// Fails for a tool that is led on once it is free: it strikes the plate, and rebounds.
+#[test]
+fn a_tool_that_is_let_go_is_a_body_like_others() {
+    let mut rig = Rig::new(Vector3::zeros(), 1.0 / 60.0);
+    let at = Vector3::z() * (RADIUS + 1e-3);
+    let body = tool(&mut rig, Led::ByVelocity, at, -Vector3::z() * 20.0);
+    rig.world.bodies[body].set_body_type(RigidBodyType::Dynamic, true);
+    rig.step();
+    let state = rig.state(body);
+    assert!(state.velocity.z > 0.0 && state.position.z > RADIUS, "{state:?}");
+    assert_eq!(rig.wear.counters().micro, 1);
+    assert!(rig.wear[rig.plate].wear_volume() > 0.0);
+}
+
 /// Fails for a tool that is taken through the plate, a panic, and a world that stands still
 /// afterwards.
 #[test]
