@@ -146,7 +146,7 @@ impl Candidates {
 }
 
 /// Bound of the distance that any point of the body moved between two poses [m].
-fn travel(shape: &Shape, from: &State, to: &State) -> f64 {
+pub(crate) fn travel(shape: &Shape, from: &State, to: &State) -> f64 {
     let shift = (to.position - from.position).norm();
     match shape.pieces() {
         [Piece::Ball(ball)] if ball.centre == Point3::origin() => shift,

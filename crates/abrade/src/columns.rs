@@ -8,7 +8,7 @@
 use nalgebra::{Point3, Vector3};
 
 use crate::body::State;
-use crate::candidates::{Candidates, Slot};
+use crate::candidates::{Candidates, Slot, travel};
 use crate::column::Column;
 use crate::column_law::{ColumnLaw, Cut, Step};
 use crate::damping::{Damping, Dashpots, damping_ratio};
@@ -16,7 +16,7 @@ use crate::laws::ElasticLaw;
 use crate::node_law::Motion;
 use crate::shape::Shape;
 #[cfg(feature = "state")]
-use crate::state::{Fault, not_negative, require};
+use crate::state::{Fault, finite, not_negative, require};
 use crate::surface::Surface;
 use crate::sweep::Swept;
 use crate::toll::Toll;
@@ -39,6 +39,10 @@ pub(crate) struct Columns {
     /// were collected before it can touch it [m].
     columns: Vec<Column>,
     gaps: Vec<f64>,
+    /// Per candidate, the mark on the body's way before which it cannot come to this column [m].
+    marks: Vec<f64>,
+    /// Where the body was before the last trial, and how long its way to there was [m].
+    stood: (State, f64),
     #[cfg_attr(feature = "state", serde(skip))]
     carried: Vec<(Slot, Column)>,
     /// Of the last trial.
@@ -66,6 +70,8 @@ impl Columns {
             candidates: Candidates::default(),
             columns: Vec::new(),
             gaps: Vec::new(),
+            marks: Vec::new(),
+            stood: (State::at(Point3::origin()), 0.0),
             carried: Vec::new(),
             cuts: Vec::new(),
             toll: Toll::default(),
@@ -131,6 +137,9 @@ impl Columns {
             true => 0.0,
             false => gap(&self.swept, slot, column.open_depth(), margin, own(surface, slot)),
         }));
+        self.marks.clear();
+        self.marks.resize(slots.len(), 0.0);
+        self.stood = (*state, 0.0);
         self.cuts.reserve(slots.len().saturating_sub(self.cuts.len()));
     }
 
@@ -164,8 +173,12 @@ impl Columns {
         self.toll = Toll::default();
         self.middle = step.middle;
         self.cuts.clear();
-        for (index, &gap) in self.gaps.iter().enumerate() {
-            if gap > travelled {
+        let before = self.stood.1 + travel(shape, &self.stood.0, start);
+        self.stood = (*start, before);
+        let way = before + travel(shape, start, end);
+        let marks = self.gaps.iter().zip(&mut self.marks).enumerate();
+        for (index, (&gap, mark)) in marks {
+            if gap > travelled || *mark > way {
                 continue;
             }
             let slot = &self.candidates.slots[index];
@@ -174,8 +187,19 @@ impl Columns {
                 step.heading = motion.heading(&(slot.x - step.middle), &normal);
             }
             step.own = own(surface, slot);
-            let cut = self.law.sweep(&step, slot, &self.columns[index], &mut self.toll);
-            self.cuts.extend(cut.map(|cut| Cut { index: index as u32, ..cut }));
+            let column = &self.columns[index];
+            match self.law.sweep(&step, slot, column, &mut self.toll) {
+                Some(cut) => self.cuts.push(Cut { index: index as u32, ..cut }),
+                None => {
+                    let top = slot.x - slot.n * column.open_depth();
+                    let clear = self.swept.clearance(&top, &slot.n);
+                    // Seen from where the body stood: the step may yet be rejected.
+                    let far = before + (clear - (way - before));
+                    if far > way {
+                        *mark = far;
+                    }
+                }
+            }
         }
         &self.toll
     }
@@ -295,9 +319,11 @@ impl Columns {
         require(not_negative(self.damping_ratio), "columns are out of range")?;
         self.candidates.check()?;
         let count = self.candidates.slots.len();
-        let same = self.columns.len() == count && self.gaps.len() == count;
+        let same = [self.columns.len(), self.gaps.len(), self.marks.len()] == [count; 3];
         require(same, "columns and candidates differ in number")?;
         require(self.gaps.iter().all(|&gap| not_negative(gap)), "a gap is below zero")?;
+        let way = not_negative(self.stood.1) && finite(&self.marks);
+        require(way, "the way of a body over columns is out of range")?;
         Ok(self)
     }
 

@@ -148,6 +148,19 @@ impl Swept {
         hulls || self.balls.iter().any(|ball| ball.meets(x, n, margin, reach))
     }
 
+    /// A distance [m] that every point of the body may move, at least, before it meets the line from `x`
+    /// down along -n; below zero where it may have met it.
+    pub(crate) fn clearance(&self, x: &Point3<f64>, n: &Vector3<f64>) -> f64 {
+        let mut start = 0;
+        let hulls = self.hulls.iter().map(|&end| {
+            let planes = &self.planes[start..end];
+            start = end;
+            hull_clearance(planes, x, n)
+        });
+        let balls = self.balls.iter().map(|ball| ball.clearance(x, n));
+        hulls.chain(balls).fold(f64::INFINITY, f64::min)
+    }
+
     /// The face through which `p` came to lie inside the body during the step, if one did.
     #[inline]
     pub(crate) fn entry(&self, p: &Point3<f64>, step: f64) -> Option<Entry> {
@@ -225,6 +238,14 @@ fn hull_meets(
     true
 }
 
+/// Distance of the line from the farthest of the planes from which it leads away.
+#[inline]
+fn hull_clearance(planes: &[MovedPlane], x: &Point3<f64>, n: &Vector3<f64>) -> f64 {
+    let leads_away = |plane: &&MovedPlane| plane.to.0.dot(n) <= 0.0;
+    let distances = planes.iter().filter(leads_away).map(|p| p.to.0.dot(&x.coords) - p.to.1);
+    distances.fold(f64::NEG_INFINITY, f64::max)
+}
+
 /// The plane that was crossed last on the way in, and when, as a share of the step.
 #[inline]
 fn hull_entry(planes: &[MovedPlane], p: &Point3<f64>, step: f64) -> Option<(f64, Entry)> {
@@ -256,6 +277,12 @@ impl MovedBall {
         square > 0.0 && along - half < margin && along + half > -(reach + margin)
     }
 
+    fn clearance(&self, x: &Point3<f64>, n: &Vector3<f64>) -> f64 {
+        let to_centre = self.to - x;
+        let along = to_centre.dot(n).min(0.0);
+        (to_centre - n * along).norm() - self.radius
+    }
+
     #[inline]
     fn chord(&self, x: &Point3<f64>, n: &Vector3<f64>) -> Option<Span> {
         let to_centre = self.to - x;
@@ -278,5 +305,67 @@ impl MovedBall {
             let normal = (before + after).normalize();
             (d0 / displacement, Entry { normal, displacement })
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::UnitQuaternion;
+
+    use super::*;
+    use crate::candidates::travel;
+    use crate::hull::{Hull, Polyhedron};
+    use crate::shape::Ball;
+
+    /// Numbers in [-1, 1] that follow no pattern.
+    struct Numbers(f64);
+
+    impl Numbers {
+        fn next(&mut self) -> f64 {
+            self.0 = (self.0 + 0.618_033_988_75 + 0.1 * (37.0 * self.0).sin()).fract();
+            2.0 * self.0.abs() - 1.0
+        }
+
+        fn vector(&mut self) -> Vector3<f64> {
+            Vector3::from_fn(|_, _| self.next())
+        }
+    }
+
+    /// Fails for a clearance that is larger than the way to the body, over which columns would be
+    /// passed through unseen, and for one that is never above zero.
+    #[test]
+    fn no_body_meets_a_line_within_its_clearance() {
+        let (hull, ..) = Hull::solid(&Polyhedron::Icosahedron.vertices(0.6), 1.0).expect("a hull");
+        let ball = Ball { centre: Point3::new(0.5, 0.1, -0.2), radius: 0.4 };
+        let shapes = [vec![Piece::Hull(hull.clone())], vec![Piece::Ball(ball)]];
+        let both = vec![Piece::Hull(hull), Piece::Ball(ball)];
+        let mut numbers = Numbers(0.3);
+        let n = Vector3::new(0.6, 0.0, 0.8);
+        for pieces in shapes.into_iter().chain([both]) {
+            let shape = Shape::union(pieces).expect("a shape");
+            let (mut clear, mut free, mut swept) = (0, 0, Swept::default());
+            for _ in 0..400 {
+                let mut at = State::at(numbers.vector().into());
+                at.rotation = UnitQuaternion::from_scaled_axis(numbers.vector() * 3.0);
+                let x = Point3::from(numbers.vector());
+                swept.place(&shape, &at, &at, None);
+                let way = swept.clearance(&x, &n);
+                free += usize::from(!swept.meets(&x, &n, 0.0, f64::INFINITY));
+                clear += usize::from(way > 0.0);
+                for _ in 0..if way > 0.0 { 20 } else { 0 } {
+                    let mut moved = at;
+                    let share = 0.5 * (1.0 + numbers.next());
+                    moved.position += numbers.vector().normalize() * (share * way);
+                    let turn = (1.0 - share) * way / shape.bounding_radius();
+                    let axis = numbers.vector().normalize();
+                    moved.rotation = UnitQuaternion::from_scaled_axis(axis * turn) * at.rotation;
+                    assert!(travel(&shape, &at, &moved) < way * (1.0 + 1e-9));
+                    swept.place(&shape, &moved, &moved, None);
+                    let span = swept.span(&x, &n, f64::INFINITY);
+                    assert!(span.is_none_or(|span| span.low > -1e-9), "{span:?} after {way}");
+                }
+            }
+            assert!(clear > free / 2, "{clear} of {free} lines that the body does not meet");
+        }
     }
 }
