@@ -160,6 +160,14 @@ impl Column {
     }
 }
 
+#[cfg(feature = "bench")]
+impl Column {
+    /// The voids and their number.
+    pub(crate) fn recorded(&self) -> ([Interval; VOIDS], usize) {
+        (self.voids.items, self.voids.count)
+    }
+}
+
 /// A column as bytes hold it.
 #[cfg(feature = "state")]
 #[derive(serde::Serialize, serde::Deserialize)]

@@ -274,6 +274,14 @@ impl ColumnLaw {
     }
 }
 
+#[cfg(feature = "bench")]
+impl ColumnLaw {
+    /// k_w [Pa/m].
+    pub(crate) fn stiffness(&self) -> f64 {
+        self.stiffness
+    }
+}
+
 /// Only after a blocked step: the deep end pays; a receding one opposes the motion.
 fn blocked_entry(step: &Step<'_>, span: &Span, arm: &Vector3<f64>) -> Entry {
     let moved = (step.motion.velocity + step.motion.spin.cross(arm)) * step.motion.dt;

@@ -5,6 +5,9 @@
 //! one: a steep wall or an undercut face passing over. Forces built from the deep-end face alone
 //! cut for free.
 
+#[cfg(feature = "bench")]
+mod recorded;
+
 use nalgebra::{Point3, Vector3};
 
 use crate::body::State;

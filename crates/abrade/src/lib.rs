@@ -44,6 +44,9 @@ mod nodes;
 mod patch;
 mod press;
 mod price;
+#[cfg(feature = "bench")]
+#[doc(hidden)]
+pub mod probe;
 mod projection;
 #[cfg(feature = "serde")]
 pub mod quantity;

@@ -192,8 +192,34 @@ pub fn cube() -> (Shape, Inertia) {
     solid(Polyhedron::Cube)
 }
 
+/// Twelve faces: its corners are the middles of an icosahedron's.
+pub fn dodecahedron() -> (Shape, Inertia) {
+    let (icosahedron, ..) =
+        Hull::solid(&Polyhedron::Icosahedron.vertices(1.0), 1.0).expect("a solid");
+    let corners = icosahedron.vertices();
+    let middle = |facet: &[u32; 3]| {
+        Point3::from(facet.iter().map(|&i| corners[i as usize].coords).sum::<Vector3<f64>>() / 3.0)
+    };
+    of_mass(&icosahedron.facets().iter().map(middle).collect::<Vec<_>>())
+}
+
+/// A hull of as many faces as corners of a spiral around a ball touch: 2 n - 4 of n corners.
+pub fn pebble(faces: usize) -> (Shape, Inertia) {
+    let count = faces / 2 + 2;
+    let corner = |i: usize| {
+        let z = 1.0 - (2 * i + 1) as f64 / count as f64;
+        let (turn, radius) = (2.399_963 * i as f64, (1.0 - z * z).sqrt());
+        Point3::new(radius * turn.cos(), radius * turn.sin(), z) * 0.6
+    };
+    of_mass(&(0..count).map(corner).collect::<Vec<_>>())
+}
+
 pub fn solid(kind: Polyhedron) -> (Shape, Inertia) {
-    let (hull, inertia, _) = Hull::solid(&kind.vertices(1.0), 1.0).expect("a solid");
+    of_mass(&kind.vertices(1.0))
+}
+
+fn of_mass(corners: &[Point3<f64>]) -> (Shape, Inertia) {
+    let (hull, inertia, _) = Hull::solid(corners, 1.0).expect("a solid");
     let scale = 0.02 / inertia.mass;
     (Shape::hull(hull), Inertia { mass: 0.02, tensor: inertia.tensor * scale })
 }

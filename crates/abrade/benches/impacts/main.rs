@@ -14,7 +14,9 @@ use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion};
 
-use cases::{Case, Range, ball, clump, cube, foundation, hertz, paper, projected, unit};
+use cases::{
+    Case, Range, ball, clump, cube, dodecahedron, foundation, hertz, paper, pebble, projected, unit,
+};
 
 fn main() {
     let words: Vec<String> = std::env::args().collect();
@@ -52,6 +54,18 @@ fn every_case() -> Vec<Case> {
         paper("paper Foundation 0.15 mm", foundation(), projected(), 45.0, fine),
         paper("paper Foundation NormalPressure 0.15 mm", foundation(), pressure(), 45.0, fine),
     ];
+    let literal = || abrade::FlowLaw::CapozzaHanley { lateral: abrade::Lateral::Eq5 };
+    let rigid = || abrade::ElasticLaw::Rigid;
+    let mut soft =
+        paper("paper HertzNodes NormalPressure 1.7 GPa", hertz(), pressure(), 90.0, None);
+    soft.laws.material.hardness = 1.7e9;
+    cases.extend([
+        soft,
+        paper("paper HertzNodes Eq5", hertz(), literal(), 45.0, None),
+        paper("paper Foundation Eq5 0.15 mm", foundation(), literal(), 45.0, fine),
+        paper("paper Rigid 0.15 mm", rigid(), projected(), 45.0, fine),
+        paper("paper Rigid NormalPressure 0.15 mm", rigid(), pressure(), 45.0, fine),
+    ]);
     for (columns, nodes) in [(70.0, "5e3"), (220.0, "5e4"), (700.0, "5e5"), (2200.0, "5e6")] {
         let case = paper("", hertz(), projected(), 45.0, None);
         let pitch = case.strip.pitch;
@@ -70,6 +84,10 @@ fn every_case() -> Vec<Case> {
     cases.push(unit("ball Rigid 1/50", shape, inertia, abrade::ElasticLaw::Rigid, 0.02));
     let (shape, inertia) = cube();
     cases.push(unit("cube Foundation 1/50", shape.clone(), inertia, springs(), 0.02));
+    for (name, (shape, inertia)) in [("12", dodecahedron()), ("100", pebble(100))] {
+        let name = format!("hull of {name} faces Foundation 1/50");
+        cases.push(unit(&name, shape, inertia, springs(), 0.02));
+    }
     for (name, pitch) in [("1/50", 0.02), ("1/100", 0.01)] {
         let rigid = abrade::ElasticLaw::Rigid;
         cases.push(unit(&format!("cube Rigid {name}"), shape.clone(), inertia, rigid, pitch));

@@ -2,6 +2,8 @@
 //! of a step, and its commitment.
 
 mod dashpots;
+#[cfg(feature = "bench")]
+mod recorded;
 mod two;
 
 use std::marker::PhantomData;
