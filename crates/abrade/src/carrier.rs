@@ -202,10 +202,11 @@ impl Ride {
             nalgebra::center(&from.position, &to.position) - (self.end.position - 0.5 * self.shift);
         let velocity = velocity - self.velocity - self.spin.cross(&arm);
         let local = |v: Vector3<f64>| self.middle.inverse_transform_vector(&v);
+        let turns = self.spin != Vector3::zeros();
         Motion {
             velocity: local(velocity),
             spin: local(spin - self.spin),
-            drag: local(-self.spin),
+            drag: turns.then(|| local(-self.spin)),
             dt,
         }
     }

@@ -185,7 +185,7 @@ impl Columns {
                 continue;
             }
             let slot = &self.candidates.slots[index];
-            if slot.n != normal || motion.drag != Vector3::zeros() {
+            if slot.n != normal || motion.drag.is_some() {
                 normal = slot.n;
                 step.heading = motion.heading(&(slot.x - step.middle), &normal);
             }

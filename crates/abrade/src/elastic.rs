@@ -11,6 +11,9 @@ pub(crate) trait Elastic: Copy {
     /// are conservative.
     const CONSERVATIVE: bool;
 
+    /// False without friction: the tangential springs then carry nothing.
+    const RUBS: bool = true;
+
     /// Normal force F [N] on a node of `area` [m2] at `overlap` d >= 0 [m].
     fn normal_force(self, coefficient: f64, overlap: f64, area: f64) -> f64;
 
@@ -94,6 +97,39 @@ impl Elastic for HertzNodes {
 
     fn yield_overlap(self, coefficient: f64, hardness: f64, area: f64) -> f64 {
         (area * hardness / coefficient).powf(2.0 / 3.0)
+    }
+}
+
+/// The law `E` without friction.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Smooth<E>(pub E);
+
+impl<E: Elastic> Elastic for Smooth<E> {
+    const CONSERVATIVE: bool = E::CONSERVATIVE;
+    const RUBS: bool = false;
+
+    #[inline(always)]
+    fn normal_force(self, coefficient: f64, overlap: f64, area: f64) -> f64 {
+        self.0.normal_force(coefficient, overlap, area)
+    }
+
+    #[inline(always)]
+    fn normal_stiffness(self, coefficient: f64, overlap: f64, area: f64) -> f64 {
+        self.0.normal_stiffness(coefficient, overlap, area)
+    }
+
+    #[inline(always)]
+    fn tangential_stiffness(self, coefficient: f64, overlap: f64, area: f64) -> f64 {
+        self.0.tangential_stiffness(coefficient, overlap, area)
+    }
+
+    #[inline(always)]
+    fn normal_energy(self, coefficient: f64, overlap: f64, area: f64) -> f64 {
+        self.0.normal_energy(coefficient, overlap, area)
+    }
+
+    fn yield_overlap(self, coefficient: f64, hardness: f64, area: f64) -> f64 {
+        self.0.yield_overlap(coefficient, hardness, area)
     }
 }
 

@@ -261,7 +261,7 @@ mod tests {
         // Pressed in by 10 mm in one step from touch; the hardness allows 1 mm of overlap.
         let query = ball(Point3::new(0.0, 0.0, 0.99));
         let zero = Vector3::zeros();
-        let motion = Motion { velocity: -Vector3::z(), spin: zero, drag: zero, dt: 0.01 };
+        let motion = Motion { velocity: -Vector3::z(), spin: zero, drag: None, dt: 0.01 };
         let answer =
             resolve(&flow, &mut node(&query, Point3::origin()), &Spring::default(), &motion);
         let spring = answer.expect("a contact").spring;
@@ -318,8 +318,7 @@ mod tests {
         for i in 0..count {
             let query = ball(centre(i + 1));
             let velocity = (centre(i + 1) - centre(i)) / dt;
-            let zero = Vector3::zeros();
-            let motion = Motion { velocity, spin: zero, drag: zero, dt };
+            let motion = Motion { velocity, spin: Vector3::zeros(), drag: None, dt };
             let mut node = node(&query, Point3::new(0.15, 0.0, -depth));
             node.heading = Vector3::x();
             let answer = resolve(&flow, &mut node, &old, &motion);

@@ -56,7 +56,7 @@ impl Reaction {
         Grip { force: self.force, torque: self.torque }
     }
 
-    /// Adds the reaction of another surface, whose frame is `pose`.
+    /// Adds the reaction of another surface, whose frame is `pose`, but for its energies.
     pub(crate) fn add(&mut self, other: &Self, pose: &Isometry3<f64>) {
         self.force += pose * other.force;
         self.torque += pose * other.torque;
@@ -67,7 +67,6 @@ impl Reaction {
         self.overlap_change = self.overlap_change.max(other.overlap_change);
         self.lever_squared = self.lever_squared.max(other.lever_squared);
         self.touching += other.touching;
-        self.ledger += other.ledger;
     }
 }
 
@@ -95,7 +94,7 @@ impl<E: Elastic, F: Flow, Q: Query> InnerLoop<'_, E, F, Q> {
             trial_stretch: Vector3::zeros(),
         };
         let zero = Vector3::zeros();
-        let turns = self.motion.drag != zero;
+        let turns = self.motion.drag.is_some();
         for (slot, (old, new)) in slots.iter().zip(old.iter().zip(new)) {
             if !self.query.near(&slot.x) {
                 if old.overlap > 0.0 {
@@ -179,6 +178,64 @@ impl Ledger {
         self.wear += mean * (spring.drop.normal + spring.drop.lateral);
         if !E::CONSERVATIVE && old.overlap > 0.0 {
             self.history -= 0.5 * (now - stiffness(old.overlap)) * old.stretch.norm_squared();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use crate::body::{Body, Inertia, State};
+    use crate::encounter::{Encounter, EncounterSettings, Loads, Placed, Until};
+    use crate::laws::{ElasticLaw, FlowLaw, HertzConvention, Lateral};
+    use crate::layout::HexStrip;
+    use crate::material::Material;
+    use crate::shape::Shape;
+    use crate::surface::{Surface, SurfaceLaws};
+
+    use super::*;
+
+    /// What is worn and the velocity after a spinning ball has struck a plate of these laws.
+    fn blow(friction: f64, elastic: &ElasticLaw, flow: &FlowLaw) -> [f64; 4] {
+        let (young, poisson) = (Some(100.0), 0.3);
+        let material = Material { hardness: 1.0, shear_ratio: 0.25, young, poisson, friction };
+        let (elastic, flow) = (elastic.clone(), flow.clone());
+        let laws = SurfaceLaws { elastic, flow, ..SurfaceLaws::of(material) };
+        let strip = HexStrip { length: 2.0, width: 1.6, pitch: 0.06, rest_area: None };
+        let mut surface = Surface::hex_strip(strip, laws).expect("a plate");
+        let velocity = Vector3::new(0.7, 0.1, -0.7);
+        let spin = Vector3::new(0.5, 1.0, -0.3);
+        let at = State::at(Point3::new(0.01, 0.02, 0.53));
+        let state = State { velocity, spin, ..at };
+        let shape = Shape::ball(0.5).expect("a ball");
+        let inertia = Inertia::of_ball(0.5, 0.04);
+        let mut body = Body { shape, inertia, state, rotation_locked: false };
+        let settings = EncounterSettings::default();
+        let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
+        let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
+        let loads = Loads::default();
+        encounter
+            .advance(&mut body, &mut placed, &loads, 1e9, Until::FirstExit, &mut ())
+            .expect("a blow");
+        let v = body.state.velocity;
+        [surface.wear_volume(), v.x, v.y, v.z]
+    }
+
+    /// Fails for a frictionless loop that leaves out more than what friction carries.
+    #[test]
+    fn a_surface_without_friction_is_the_limit_of_little_friction() {
+        let node_radius = 0.02;
+        let hertz =
+            ElasticLaw::HertzNodes { node_radius, convention: HertzConvention::ElasticPair };
+        let literal = FlowLaw::CapozzaHanley { lateral: Lateral::Eq5 };
+        let projected = FlowLaw::CapozzaHanley { lateral: Lateral::Projected };
+        for elastic in [ElasticLaw::Foundation { stiffness: None }, hertz] {
+            for flow in [&literal, &projected, &FlowLaw::NormalPressure {}] {
+                let [none, little] = [0.0, 1e-200].map(|friction| blow(friction, &elastic, flow));
+                let differ = none.iter().zip(&little).any(|(a, b)| (a - b).abs() > 1e-12);
+                assert!(none[0] > 1e-3 && !differ, "{elastic:?} {flow:?} {none:?} {little:?}");
+            }
         }
     }
 }

@@ -359,14 +359,14 @@ impl Integrator {
         state.velocity /= 1.0 + dt * loads.linear_damping;
         state.spin /= 1.0 + dt * loads.angular_damping;
         let damped = self.arrive(surfaces, dt);
-        if self.settings.ledger {
+        if let Some(spent) = end.ledger {
             let energy = |state: &State| body.inertia.kinetic_energy(state);
             let weight = loads.pull(&body.inertia);
             let ledger = &mut self.ledger;
             let carried = carriers_energy(surfaces) - carried.unwrap_or_default();
             ledger.kinetic_change += energy(&state) - energy(&before) + carried;
-            ledger.damping += energy(&end.state) - energy(&state) + end.ledger.damping + damped;
-            ledger.external_work += end.ledger.external_work
+            ledger.damping += energy(&end.state) - energy(&state) + spent.damping + damped;
+            ledger.external_work += spent.external_work
                 + weight.dot(&trial.shift)
                 + self.dynamics.work(&loads.torque, &trial.turn);
             if self.dynamics.is_immovable() {
@@ -380,10 +380,10 @@ impl Integrator {
                 let shown = (end.state.velocity - before.velocity) / self.dynamics.inverse_mass;
                 ledger.external_work += (shown - total).dot(&trial.shift) / dt;
             }
-            ledger.elastic = end.ledger.elastic;
-            ledger.friction += end.ledger.friction;
-            ledger.wear += end.ledger.wear;
-            ledger.history += end.ledger.history;
+            ledger.elastic = spent.elastic;
+            ledger.friction += spent.friction;
+            ledger.wear += spent.wear;
+            ledger.history += spent.history;
         }
         done.impulse += end.impulse;
         done.twist += end.twist;

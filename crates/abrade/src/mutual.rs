@@ -229,6 +229,7 @@ impl Mutual {
             let seat = local.pose() * skin.pose;
             let motion = turned_round(motion, local, &seat);
             let reaction = back.trial(skin.surface.laws(), &striker(&seat), &motion);
+            sum.ledger += reaction.ledger;
             sum.add(&on_body(reaction, local, &seat, reach), &Isometry3::identity());
         }
         let [forth, back] =
@@ -311,7 +312,7 @@ fn turned_round(motion: &Motion, local: &State, seat: &Isometry3<f64>) -> Motion
     Motion {
         velocity: turn * (spin.cross(&middle) - velocity),
         spin: turn * -spin,
-        drag: turn * (drag - spin),
+        drag: Some(turn * (drag.unwrap_or_default() - spin)),
         dt: *dt,
     }
 }

@@ -68,8 +68,8 @@ pub(crate) struct Motion {
     pub velocity: Vector3<f64>,
     /// Over the surface: the body's own less that of the surface.
     pub spin: Vector3<f64>,
-    /// The part of it that turns the surface below the body; zero for one that does not turn.
-    pub drag: Vector3<f64>,
+    /// The part of it that turns the surface below the body; None for one that does not turn.
+    pub drag: Option<Vector3<f64>>,
     pub dt: f64,
 }
 
@@ -78,15 +78,21 @@ impl Motion {
     /// the surface's material, without what the body's own spin moves it along that face.
     #[inline(always)]
     pub(crate) fn advance(&self, arm: &Vector3<f64>, m: &Vector3<f64>) -> Vector3<f64> {
-        let own = (self.spin - self.drag).cross(arm);
-        self.velocity + self.drag.cross(arm) + m * m.dot(&own)
+        let own = self.drag.map_or(self.spin, |drag| self.spin - drag).cross(arm);
+        self.over(arm) + m * m.dot(&own)
     }
 
     /// Unit tangential direction of the body's motion over a node at `arm` from its centre of mass
     /// with normal `n`; zero at rest.
     #[inline(always)]
     pub(crate) fn heading(&self, arm: &Vector3<f64>, n: &Vector3<f64>) -> Vector3<f64> {
-        heading(&(self.velocity + self.drag.cross(arm)), n)
+        heading(&self.over(arm), n)
+    }
+
+    /// Velocity of the centre of mass over the material at `arm` from it [m/s].
+    #[inline(always)]
+    fn over(&self, arm: &Vector3<f64>) -> Vector3<f64> {
+        self.drag.map_or(self.velocity, |drag| self.velocity + drag.cross(arm))
     }
 }
 
@@ -119,7 +125,7 @@ pub(crate) struct Loaded {
     /// T [N], and its length.
     pub tangential: Vector3<f64>,
     pub tangential_force: f64,
-    /// |xi| cut off by slip, and the stretch that is left.
+    /// |xi| cut off by slip, and the stretch that is left; zeros without friction.
     pub slip: f64,
     pub stretch: Vector3<f64>,
     /// F_z: force along minus n.
@@ -141,8 +147,22 @@ impl<E: Elastic, Q: Query> NodeStep<'_, E, Q> {
         let m = touch.contact_normal;
         let overlap = touch.overlap.max(0.0);
         let force = self.elastic.normal_force(touch.coefficient, overlap, self.area);
-        let spring = self.elastic.tangential_stiffness(touch.coefficient, overlap, self.area);
         let cosine = -m.dot(&self.n);
+        if !E::RUBS {
+            let total = m * force;
+            return Loaded {
+                touch,
+                cosine,
+                normal_force: force,
+                tangential: Vector3::zeros(),
+                tangential_force: 0.0,
+                slip: 0.0,
+                stretch: Vector3::zeros(),
+                normal_load: -total.dot(&self.n),
+                lateral_load: total.dot(&self.heading),
+            };
+        }
+        let spring = self.elastic.tangential_stiffness(touch.coefficient, overlap, self.area);
         let xi = self.trial_stretch + (self.n + m * cosine) * drop;
         let (length, limit) = (xi.norm(), self.friction * force);
         let kept = if spring * length > limit { limit / (spring * length) } else { 1.0 };
@@ -268,8 +288,10 @@ pub(crate) fn resolve<E: Elastic, Q: Query, F: Flow>(
     // Share of the step spent in contact.
     let share =
         if was_in_contact || approach <= 0.0 { 1.0 } else { (trial.overlap / approach).min(1.0) };
-    let carried = if was_in_contact { transport(&old.stretch, &m) } else { Vector3::zeros() };
-    node.trial_stretch = carried + (step - m * approach) * share;
+    if E::RUBS {
+        let carried = if was_in_contact { transport(&old.stretch, &m) } else { Vector3::zeros() };
+        node.trial_stretch = carried + (step - m * approach) * share;
+    }
     let advance = Advance {
         // v* splits the advance into its normal and tangential parts: the full material velocity
         // would let spin leak between the gates.

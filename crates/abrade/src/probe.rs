@@ -105,7 +105,7 @@ impl Recording {
             let trial = integrator.trial(&body, &placed, &loads, dt, flight);
             if trial.touching > 0 {
                 let (velocity, spin) = (trial.shift / dt, trial.turn / dt);
-                let motion = Motion { velocity, spin, drag: Vector3::zeros(), dt };
+                let motion = Motion { velocity, spin, drag: None, dt };
                 let contact = integrator.contacts[0].clone();
                 let marks = match (&before, &contact) {
                     (Contact::Columns(before), Contact::Columns(now)) => now.marks_of(before),

@@ -92,8 +92,8 @@ pub(crate) struct Settled {
     pub impulse: Vector3<f64>,
     /// Torque of the contacts about the centre of mass over the step [N m s].
     pub twist: Vector3<f64>,
-    /// Stored energy, and increments of the dissipated ones.
-    pub ledger: Ledger,
+    /// Stored energy, and increments of the dissipated ones, if they are kept.
+    pub ledger: Option<Ledger>,
 }
 
 impl Trial {
@@ -205,6 +205,7 @@ impl Integrator {
             flight: surfaces.is_empty(),
         };
         let reach = (velocity.norm() + spin.norm() * body.shape.bounding_radius()) * dt;
+        let keeps_ledger = self.keeps_ledger();
         for (i, (contact, placed)) in self.contacts.iter_mut().zip(surfaces).enumerate() {
             let ride = self.rides.get(i).and_then(Option::as_ref);
             let pose = ride.map_or(placed.pose, |ride| ride.pose);
@@ -212,8 +213,7 @@ impl Integrator {
             let motion = match ride {
                 None => {
                     let local = |v: &Vector3<f64>| placed.pose.inverse_transform_vector(v);
-                    let drag = Vector3::zeros();
-                    Motion { velocity: local(&velocity), spin: local(&spin), drag, dt }
+                    Motion { velocity: local(&velocity), spin: local(&spin), drag: None, dt }
                 }
                 Some(ride) => ride.relative([&body.state, state], course),
             };
@@ -229,6 +229,9 @@ impl Integrator {
                 Contact::Springs(patch) => {
                     let reaction = patch.trial(placed.surface.laws(), &end, &motion);
                     trial.springs.add(reaction, &pose);
+                    if keeps_ledger {
+                        trial.springs.ledger += reaction.ledger;
+                    }
                     if ride.is_some() {
                         self.answers[i].springs = reaction.grip().turned(&pose);
                     }
@@ -237,6 +240,9 @@ impl Integrator {
                     let levers = body.shape.bounding_radius();
                     let reaction = mutual.trial(placed, &end, &motion, levers);
                     trial.springs.add(&reaction, &pose);
+                    if keeps_ledger {
+                        trial.springs.ledger += reaction.ledger;
+                    }
                     if ride.is_some() {
                         self.answers[i].springs = reaction.grip().turned(&pose);
                     }
@@ -380,15 +386,16 @@ impl Integrator {
             spring_torque: springs.torque,
             push,
         };
-        let ledger = Ledger {
+        let external_work = self.hold_on(body, surfaces, &state, dt);
+        let ledger = self.keeps_ledger().then(|| Ledger {
             elastic,
             friction: springs.ledger.friction + toll.spring.friction + flow_friction,
             damping: half.map_or(0.0, |_| self.damping.dissipated),
             wear: springs.ledger.wear + toll.wear * share,
             history: springs.ledger.history + toll.lost,
-            external_work: self.hold_on(body, surfaces, &state, dt),
+            external_work,
             ..Ledger::default()
-        };
+        });
         let mean = (self.pull.spring_force + springs.force) * (0.5 * dt);
         let twist = (self.pull.spring_torque + springs.torque) * (0.5 * dt) + torque;
         Settled { state, pull, impulse: mean + impulse, twist, ledger }

@@ -37,12 +37,6 @@ impl Case {
         self
     }
 
-    /// The same impact with the energies kept.
-    pub fn with_ledger(mut self) -> Self {
-        self.settings.ledger = true;
-        self
-    }
-
     /// Same impact, plate of another extent.
     pub fn on(mut self, strip: HexStrip) -> Self {
         self.strip = strip;

@@ -4,8 +4,7 @@
 //! side by side; a word after `--` picks cases (`-- plate`). An impact is timed from a new encounter
 //! to its exit, on a fresh site; the table gives the least time of its runs. The error in W is
 //! against the same landing at an accuracy of 1e-6; for `Rigid` the pitch sets the step and it is
-//! zero. What the ledger costs is counted, not timed: `benches/instructions.sh`, for which
-//! `-- --once CASE COUNT [ledger]` runs impacts and prints nothing.
+//! zero. What optional parts cost is counted, not timed: `benches/pay.sh`.
 
 mod cases;
 
@@ -20,9 +19,6 @@ use cases::{
 
 fn main() {
     let words: Vec<String> = std::env::args().collect();
-    if let Some(at) = words.iter().position(|word| word == "--once") {
-        return once(&words[at + 1..]);
-    }
     let mut criterion = Criterion::default()
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_secs(2))
@@ -93,21 +89,6 @@ fn every_case() -> Vec<Case> {
         cases.push(unit(&format!("cube Rigid {name}"), shape.clone(), inertia, rigid, pitch));
     }
     cases
-}
-
-/// Impacts of the first case whose name contains the first word.
-fn once(words: &[String]) {
-    let [name, count, ledger @ ..] = words else { panic!("--once CASE COUNT [ledger]") };
-    let case = every_case().into_iter().find(|case| case.name.contains(name)).expect("a case");
-    let case = if ledger.is_empty() { case } else { case.with_ledger() };
-    let count = count.parse().expect("a number of impacts");
-    let mut range = Range::new(case);
-    for _ in 0..count {
-        if range.is_used_up() {
-            range.renew();
-        }
-        black_box(range.fire());
-    }
 }
 
 /// Wall time of `count` impacts.

@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 use crate::body::State;
 use crate::candidates::{Candidates, Slot};
 use crate::damping::damping_ratio;
-use crate::elastic::{Elastic, Foundation, HertzNodes, coefficient};
+use crate::elastic::{Elastic, Foundation, HertzNodes, Smooth, coefficient};
 use crate::flight::time_to_close;
 use crate::flow::{CapozzaHanley, Eq5, Flow, NormalPressure, Projected};
 use crate::inner_loop::{InnerLoop, Reaction};
@@ -224,14 +224,26 @@ impl Patch {
         let poisson = laws.material.poisson;
         let mut reaction = match laws.elastic {
             ElasticLaw::HertzNodes { .. } => {
-                self.with_elastic(HertzNodes::new(poisson), laws, motion)
+                self.with_springs(HertzNodes::new(poisson), laws, motion)
             }
-            _ => self.with_elastic(Foundation::new(poisson), laws, motion),
+            _ => self.with_springs(Foundation::new(poisson), laws, motion),
         };
         reaction.overlap_change /= self.yield_overlap;
         reaction.ledger.history += self.lost;
         self.reaction = reaction;
         &self.reaction
+    }
+
+    fn with_springs<E: Elastic>(
+        &mut self,
+        elastic: E,
+        laws: &SurfaceLaws,
+        motion: &Motion,
+    ) -> Reaction {
+        match laws.material.friction > 0.0 {
+            true => self.with_elastic(elastic, laws, motion),
+            false => self.with_elastic(Smooth(elastic), laws, motion),
+        }
     }
 
     fn with_elastic<E: Elastic>(
