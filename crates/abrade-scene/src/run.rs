@@ -21,6 +21,7 @@ mod double;
 mod ending;
 mod engine;
 mod entries;
+mod estimate;
 mod extent;
 mod frames;
 mod record;

@@ -59,6 +59,7 @@ mod shape;
 mod solid;
 #[cfg(feature = "state")]
 mod state;
+mod sublattice;
 mod sunk;
 mod surface;
 #[cfg(feature = "state")]

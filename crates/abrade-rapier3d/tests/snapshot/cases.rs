@@ -21,7 +21,7 @@ pub struct Case {
     pub after: usize,
 }
 
-pub const CASES: [Case; 8] = [
+pub const CASES: [Case; 9] = [
     Case {
         name: "impacts at tiny steps",
         world: impacts,

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use abrade::{ElasticLaw, Ledger};
 use abrade_report::Summary;
 use abrade_report::summary::{
-    BodySummary, EnergySummary, ErrorEstimate, MotionSummary, ResolverCounts, SurfaceSummary,
+    BodySummary, EnergySummary, MotionSummary, ResolverCounts, SurfaceSummary,
 };
 
 use crate::carrier::BuiltCarrier;
@@ -13,6 +13,7 @@ use crate::check::Checked;
 use crate::run::bodies::{Bodies, Track};
 use crate::run::engine::Engine;
 use crate::run::entries::entries;
+use crate::run::estimate;
 use crate::run::stop::End;
 use crate::run::{Precision, RunError};
 use crate::scene::Output;
@@ -73,7 +74,7 @@ pub(crate) fn summary(run: &Run<'_>) -> Summary {
         simulated: run.simulated,
         steps: counts.steps,
         node_evaluations: counts.node_evaluations,
-        error_estimate: error_estimate(energy.as_ref()),
+        error_estimate: estimate::of(run.engine, surfaces.len(), energy.as_ref()),
         surfaces,
         bodies,
         energy,
@@ -121,15 +122,6 @@ pub(crate) fn energies(ledger: Ledger, bodies: &Bodies, kinetic: f64) -> EnergyS
         ..ledger
     };
     EnergySummary::of(&ledger, initial + ledger.elastic_start, kinetic)
-}
-
-/// The ledger's numerical bucket over the energy that was turned over.
-fn error_estimate(energy: Option<&EnergySummary>) -> ErrorEstimate {
-    let Some(energy) = energy else { return ErrorEstimate::default() };
-    let turnover = energy.wear + energy.friction + energy.damping;
-    let time = (turnover > 0.0).then(|| energy.numerical.abs() / turnover);
-    let basis = "time: the ledger's numerical part over the energy dissipated";
-    ErrorEstimate { time, pitch: None, basis: time.map(|_| basis.to_owned()) }
 }
 
 fn warnings(run: &Run<'_>) -> Vec<String> {
