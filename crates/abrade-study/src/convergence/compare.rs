@@ -2,7 +2,7 @@
 
 use crate::convergence::fit;
 use crate::convergence::ladder::{Against, Ladder, Rung, Variant};
-use crate::convergence::measure::Measured;
+use crate::convergence::measure::{INTERRUPTED, Measured};
 use crate::convergence::quantities::{Errors, Quantities};
 use crate::error::StudyError;
 
@@ -85,7 +85,7 @@ impl<'a> References<'a> {
                 let failures = climbed.iter().flat_map(|(_, runs)| runs);
                 let reason = failures.filter_map(|run| run.failure.clone()).next();
                 return Err(match reason {
-                    Some(reason) if reason != "interrupted" => StudyError::Nothing { reason },
+                    Some(reason) if reason != INTERRUPTED => StudyError::Nothing { reason },
                     _ => StudyError::Interrupted,
                 });
             }

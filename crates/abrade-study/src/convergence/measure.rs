@@ -12,6 +12,8 @@ use crate::convergence::quantities::Quantities;
 use crate::error::StudyError;
 use crate::sets;
 
+/// The failure of a run that the user broke off.
+pub(crate) const INTERRUPTED: &str = "interrupted";
 /// Wall time below which a run is timed again [s], and how often at most.
 const SHORT: f64 = 0.05;
 const REPEATS: u32 = 3;
@@ -52,6 +54,8 @@ pub(crate) struct Runner<'a> {
 struct Watch<'a> {
     progress: &'a mut dyn Progress,
     began: Instant,
+    /// When the present run began.
+    run_began: Instant,
     budget: f64,
     interrupted: bool,
 }
@@ -60,7 +64,8 @@ impl Progress for Watch<'_> {
     fn advance(&mut self, simulated: f64, _: Option<f64>) -> bool {
         let share = self.began.elapsed().as_secs_f64() / self.budget;
         self.interrupted |= !self.progress.advance(simulated, Some(share.min(1.0)));
-        !self.interrupted
+        // A run without an end would keep the others waiting.
+        !self.interrupted && self.run_began.elapsed().as_secs_f64() < self.budget
     }
 }
 
@@ -72,7 +77,8 @@ impl<'a> Runner<'a> {
         progress: &'a mut dyn Progress,
     ) -> Self {
         let budget = plan.budget;
-        let watch = Watch { progress, began: Instant::now(), budget, interrupted: false };
+        let now = Instant::now();
+        let watch = Watch { progress, began: now, run_began: now, budget, interrupted: false };
         Self { path, sets, plan, watch }
     }
 
@@ -167,13 +173,18 @@ impl<'a> Runner<'a> {
         let options = RunOptions { folder, precision: rung.precision };
         let mut wall = f64::INFINITY;
         for repeat in 1.. {
+            self.watch.run_began = Instant::now();
             let outcome = match abrade_scene::run(checked, &options, &mut self.watch) {
                 Ok(outcome) => outcome,
                 Err(RunError::Build(error)) => return Ok(Err(error.to_string())),
                 Err(error) => return Err(error.into()),
             };
+            if self.watch.interrupted {
+                return Ok(Err(INTERRUPTED.to_owned()));
+            }
             if outcome.interrupted {
-                return Ok(Err("interrupted".to_owned()));
+                let seconds = self.plan.budget;
+                return Ok(Err(format!("not at its end after {seconds} s, the study's budget")));
             }
             if let Some(failure) = outcome.failure {
                 return Ok(Err(failure.to_string()));

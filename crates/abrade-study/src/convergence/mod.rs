@@ -3,6 +3,7 @@
 mod chart;
 mod cheapest;
 mod compare;
+mod estimates;
 mod fit;
 mod ladder;
 mod measure;
@@ -16,6 +17,7 @@ use abrade_scene::Progress;
 
 pub use cheapest::Cheapest;
 pub use compare::{Curve, Row};
+pub use estimates::Told;
 pub use ladder::{Ladder, Rung, Variant};
 pub use quantities::{BodyQuantities, Errors, Quantities};
 
@@ -31,7 +33,7 @@ pub struct Plan {
     /// Number of places in the cell of a plate's lattice that every setting starts from, at least
     /// one. Errors are root mean squares over them.
     pub landings: u32,
-    /// Wall time after which no finer setting is begun [s].
+    /// Wall time after which no finer setting is begun [s], and longest time of a run.
     pub budget: f64,
     /// A `summary.json`, or one with some of its values, of results to compare with in the place of
     /// the finest run.
@@ -63,6 +65,8 @@ pub struct Study {
     pub reference: String,
     /// The cheapest settings for the errors that people ask for.
     pub cheapest: Vec<Cheapest>,
+    /// How well the runs' own estimates told their errors by time and by pitch.
+    pub told: [Told; 2],
     /// True when the user broke it off; what is there is complete.
     pub interrupted: bool,
 }
@@ -95,6 +99,7 @@ pub fn convergence(
     let study = Study {
         scene: checked.scene.name.clone(),
         cheapest: cheapest::cheapest(&curves),
+        told: estimates::told(&curves),
         curves,
         reference: references.words(),
         interrupted: runner.is_interrupted(),

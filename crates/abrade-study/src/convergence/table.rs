@@ -128,6 +128,9 @@ pub(crate) fn text(study: &Study) -> String {
         }
     }
     text.push('\n');
+    for (told, name) in study.told.iter().zip(["time", "pitch"]) {
+        text.push_str(&told.words(name));
+    }
     for cheapest in &study.cheapest {
         text.push_str(&advice(cheapest));
     }
