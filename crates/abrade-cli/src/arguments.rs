@@ -80,7 +80,8 @@ pub(crate) struct ConvergenceArguments {
           value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub(crate) landings: u32,
     /// Seconds after which no finer setting is begun; a run that takes longer is given up.
-    #[arg(long, value_name = "SECONDS", default_value_t = 120.0, value_parser = above_zero)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 120.0,
+          allow_negative_numbers = true, value_parser = above_zero)]
     pub(crate) budget: f64,
     /// Compare with this `summary.json`, or part of one, in the place of the finest run.
     #[arg(long, value_name = "FILE")]
