@@ -90,16 +90,17 @@ impl DrivenBody {
         let mut relay = Relay { observer, body: self.handle, frame, surfaces, began: 0.0, trace };
         let pose = Isometry3::identity();
         let mut placed = [Placed::at_rest(worn.owned(), pose)];
-        let mut steps = 0;
+        let mut pressed = abrade::Advance::default();
         if !self.indented {
-            steps = self.driven.indent(&mut self.body, &mut placed, &mut relay)?.steps;
+            pressed = self.driven.indent(&mut self.body, &mut placed, &mut relay)?;
             self.indented = true;
         }
         if self.driven.is_done() {
-            return Ok(abrade::Advance { steps, ..Default::default() });
+            return Ok(pressed);
         }
         let mut advance = self.driven.advance(&mut self.body, &mut placed, dt, &mut relay)?;
-        advance.steps += steps;
+        advance.steps += pressed.steps;
+        advance.node_evaluations += pressed.node_evaluations;
         Ok(advance)
     }
 

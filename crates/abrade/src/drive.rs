@@ -3,12 +3,13 @@
 
 use nalgebra::Vector3;
 
+use crate::balance::{LOAD, Search};
 use crate::body::Body;
 use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Until};
 use crate::error::PhysicsError;
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
-use crate::press::{Creep, LOAD, LOAD_STEPS, Press};
+use crate::press::{Creep, Press};
 #[cfg(feature = "state")]
 use crate::state::{Fault, not_negative, require};
 use crate::surface::Surface;
@@ -152,16 +153,19 @@ impl Driven {
                 return Err(PhysicsError::TooManySteps { steps: done.steps });
             }
             let target = self.drive.indent_to;
-            let load = |trial: &Trial| -trial.force().dot(&down);
+            let load = |force: Vector3<f64>| -force.dot(&down);
             let mut trial = self.push(body, placed, down * increment);
-            let mut step = increment;
-            if load(&trial) >= target {
-                step = self.find(body, placed, down, [0.0, increment], target);
-                trial = self.push(body, placed, down * step);
-            }
-            let reached = load(&trial) >= (1.0 - LOAD) * target;
-            depth += step;
             done.node_evaluations += trial.evaluations;
+            let mut step = increment;
+            let over = load(trial.force()) - target;
+            if over >= 0.0 {
+                let ends = [[0.0, load(self.force()) - target], [increment, over]];
+                let (sink, found) = self.find(body, placed, down, ends, target);
+                (step, trial) = (sink, found);
+                done.node_evaluations += trial.evaluations;
+            }
+            let reached = load(trial.force()) >= (1.0 - LOAD) * target;
+            depth += step;
             done.steps += 1;
             self.lead(body, placed, step, &trial);
             observer.observe(&Instant {
@@ -236,25 +240,29 @@ impl Driven {
         self.integrator.creep(body, placed, &press, &creep, observer)
     }
 
-    /// The sink within `range` at which the load is `target` [m].
+    /// The sink [m] between `ends`, with their excesses of the load, at which the load is `target`,
+    /// and its trial, with the node evaluations of the search.
     fn find(
         &mut self,
         body: &Body,
-        placed: &mut [Placed<'_>; 1],
+        placed: &[Placed<'_>; 1],
         down: Vector3<f64>,
-        range: [f64; 2],
+        [low, high]: [[f64; 2]; 2],
         target: f64,
-    ) -> f64 {
-        let [mut low, mut high] = range;
-        for _ in 0..LOAD_STEPS {
-            let middle = 0.5 * (low + high);
-            let load = -self.push(body, placed, down * middle).force().dot(&down);
-            if (load - target).abs() < LOAD * target {
-                return middle;
-            }
-            if load > target { high = middle } else { low = middle }
-        }
-        high
+    ) -> (f64, Trial) {
+        let mut evaluations = 0;
+        let mut asked = None;
+        let search = Search::new(target, |sink| {
+            let trial = self.push(body, placed, down * sink);
+            evaluations += trial.evaluations;
+            let over = -trial.force().dot(&down) - target;
+            asked = Some(trial);
+            over
+        });
+        let found = search.between(low, high);
+        let mut trial = asked.expect("a search asks");
+        trial.evaluations = evaluations;
+        (found.sink, trial)
     }
 
     /// Makes a push that took `dt` [s] the state.

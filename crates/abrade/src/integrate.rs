@@ -6,6 +6,7 @@
 
 use nalgebra::Vector3;
 
+use crate::balance::Balance;
 use crate::body::{Body, State};
 use crate::carrier::{Answer, Hand, Ride, carriers_energy, flight_limit};
 use crate::contact::Contact;
@@ -80,6 +81,8 @@ pub(crate) struct Integrator {
     pub(crate) damping: Damping,
     #[cfg_attr(feature = "state", serde(skip))]
     pub(crate) dashpots: Dashpots,
+    /// Where the last search for a load ended, of a pressed body.
+    pub(crate) balance: Option<Balance>,
     /// Energy that projections with springs were short of [J].
     pub(crate) short: f64,
     ledger: Ledger,
@@ -141,6 +144,7 @@ impl Integrator {
             rides: Vec::new(),
             answers: Vec::new(),
             ahead: Vector3::zeros(),
+            balance: None,
             short: 0.0,
             ledger: Ledger::default(),
         })
@@ -415,6 +419,7 @@ impl Integrator {
             contact.let_go(placed.surface);
         }
         self.pull = Pull::default();
+        self.balance = None;
         (self.touching, self.touched) = (false, false);
         self.ledger.history += std::mem::take(&mut self.ledger.elastic);
     }
@@ -474,7 +479,8 @@ impl Integrator {
         require(same && within, "a candidate is no node of its surface")?;
         let energies = finite(&[self.energy_before, self.short]);
         let hands = self.hands.iter().all(Hand::is_finite);
-        let finite = energies && hands && self.pull.is_finite();
+        let balance = self.balance.is_none_or(|balance| balance.is_finite());
+        let finite = energies && hands && balance && self.pull.is_finite();
         require(finite, "the forces of a contact are not finite")?;
         Ok(self)
     }

@@ -6,6 +6,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::balance::Search;
 use crate::body::{Body, State};
 use crate::encounter::{Advance, EncounterSettings, Instant, Observer, Placed, Skin};
 use crate::error::PhysicsError;
@@ -15,10 +16,6 @@ use crate::ledger::Ledger;
 use crate::surface::Surface;
 use crate::trial::{Course, Trial};
 
-/// Relative tolerance of a load that is searched for.
-pub(crate) const LOAD: f64 = 1e-6;
-/// Evaluations of a search for a load.
-pub(crate) const LOAD_STEPS: usize = 60;
 /// Increments by which a body that lies in a surface is lifted until it is clear of it.
 const LIFTS: usize = 60;
 
@@ -45,8 +42,9 @@ pub(crate) struct Creep {
 }
 
 impl Integrator {
-    /// The trial of an increment after which the load is balanced; `scale` [m] is the sinking
-    /// that the search begins with. Commits nothing.
+    /// The trial of an increment after which the load is balanced, with the node evaluations of the
+    /// whole search, which begins where the last one ended, or else `scale` [m] to either side.
+    /// Commits nothing.
     pub(crate) fn press(
         &mut self,
         body: &Body,
@@ -54,37 +52,22 @@ impl Integrator {
         press: &Press,
         scale: f64,
     ) -> Result<Trial, PhysicsError> {
-        let load = press.load;
-        let excess = |trial: &Trial| -trial.force().dot(&press.down) - load;
         let limit = 2.0 * body.shape.bounding_radius() + scale;
-        let bracket = |this: &mut Self, sign: f64| -> Result<[f64; 2], PhysicsError> {
-            let mut sink = sign * scale;
-            loop {
-                let over = excess(&this.push(body, placed, press, sink));
-                if over * sign >= 0.0 {
-                    return Ok([sink, over]);
-                }
-                if !over.is_finite() || sink.abs() > limit {
-                    return Err(PhysicsError::LoadNotReached { load, depth: sink });
-                }
-                sink *= 2.0;
-            }
-        };
-        let (mut low, mut high) = (bracket(self, -1.0)?, bracket(self, 1.0)?);
-        for count in 0..LOAD_STEPS {
-            // Regula falsi, and every fourth time bisection.
-            let share = low[1] / (low[1] - high[1]);
-            let share = if count % 4 == 3 || !share.is_finite() { 0.5 } else { share };
-            let middle = low[0] + share * (high[0] - low[0]);
-            let trial = self.push(body, placed, press, middle);
-            let over = excess(&trial);
-            if over.abs() < LOAD * load || middle == low[0] || middle == high[0] {
-                return Ok(trial);
-            }
-            let side = if over > 0.0 { &mut high } else { &mut low };
-            *side = [middle, over];
-        }
-        Ok(self.push(body, placed, press, 0.5 * (low[0] + high[0])))
+        let last = self.balance;
+        let mut evaluations = 0;
+        let mut asked = None;
+        let search = Search::new(press.load, |sink| {
+            let trial = self.push(body, placed, press, sink);
+            evaluations += trial.evaluations;
+            let over = -trial.force().dot(&press.down) - press.load;
+            asked = Some(trial);
+            over
+        });
+        let found = search.find(last, scale, limit)?;
+        self.balance = Some(found);
+        let mut trial = asked.expect("a search asks");
+        trial.evaluations = evaluations;
+        Ok(trial)
     }
 
     /// Takes a body through equal increments, each ending where the load is balanced.
@@ -268,5 +251,59 @@ impl Pressed {
     /// True when these are surfaces of the sizes that it was made with; others end in a panic.
     pub fn is_made_for<'a>(&self, surfaces: impl IntoIterator<Item = &'a Surface>) -> bool {
         self.integrator.is_made_for(surfaces)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Isometry3;
+
+    use super::*;
+    use crate::body::Inertia;
+    use crate::layout::HexStrip;
+    use crate::material::Material;
+    use crate::shape::Shape;
+    use crate::surface::SurfaceLaws;
+
+    /// Fails for a search that begins anew at every increment, and for one that counts the nodes of
+    /// the last trial alone.
+    #[test]
+    fn a_search_for_the_load_goes_on_from_the_last_one() {
+        let material = Material {
+            hardness: 1.7e9,
+            shear_ratio: 0.25,
+            young: Some(200e9),
+            poisson: 0.3,
+            friction: 0.5,
+        };
+        let strip = HexStrip { length: 30e-3, width: 12e-3, pitch: 0.6e-3, rest_area: None };
+        let mut surface = Surface::hex_strip(strip, SurfaceLaws::of(material)).expect("a surface");
+        let mut body = Body {
+            shape: Shape::ball(10e-3).expect("a ball"),
+            inertia: Inertia::of_ball(10e-3, 8000.0),
+            state: State::at(nalgebra::Point3::new(-8e-3, 0.0, 10e-3)),
+            rotation_locked: true,
+        };
+        let settings = EncounterSettings::default();
+        let mut integrator = Integrator::new(&body, [&surface], settings).expect("an integrator");
+        let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
+        let (count, load, scale) = (200, 10e3, 0.05e-3);
+        let mut press =
+            Press { along: Vector3::zeros(), turn: Vector3::zeros(), down: -Vector3::z(), load };
+        let (mut trials, mut least) = (0.0, f64::INFINITY);
+        for i in 0..=count {
+            let trial = integrator.press(&body, &placed, &press, scale).expect("a balance");
+            assert!((trial.force().z / load - 1.0).abs() < crate::balance::LOAD);
+            integrator.lead(&mut body, &mut placed, &trial, [Vector3::zeros(); 2]);
+            // The first one sinks where it stands, from nothing that it knows.
+            if i > 0 {
+                let trial = trial.evaluations as f64 / trial.touching as f64;
+                (trials, least) = (trials + trial, least.min(trial));
+            }
+            press.along = Vector3::x() * scale;
+        }
+        let mean = trials / f64::from(count);
+        println!("{mean} trials per increment, at least {least}");
+        assert!(mean < 5.0 && least > 1.5, "{mean} {least}");
     }
 }
