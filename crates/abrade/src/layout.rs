@@ -140,14 +140,22 @@ fn strip_cell(rows: usize, column: usize, row: usize) -> [[u32; 3]; 2] {
     }
 }
 
+/// Distance of neighbouring columns of a strip [m].
+pub(crate) fn across(pitch: f64) -> f64 {
+    pitch * 0.75f64.sqrt()
+}
+
 /// Undeformed positions about the node nearest the middle, column by column [m].
 pub(crate) fn strip_positions([columns, rows]: [usize; 2], pitch: f64) -> Vec<Point3<f64>> {
-    let across = pitch * 0.75f64.sqrt();
+    let across = across(pitch);
     let site = |column: usize, row: usize| {
         let shift = 0.5 * (column % 2) as f64;
         Point3::new(column as f64 * across, (row as f64 + shift) * pitch, 0.0)
     };
     let middle = site((columns - 1) / 2, (rows - 1) / 2).coords;
-    let rows_of = |column| (0..rows).map(move |row| site(column, row) - middle);
-    (0..columns).flat_map(rows_of).collect()
+    let mut positions = Vec::with_capacity(columns * rows);
+    for column in 0..columns {
+        positions.extend((0..rows).map(|row| site(column, row) - middle));
+    }
+    positions
 }

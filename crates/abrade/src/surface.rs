@@ -195,7 +195,7 @@ impl Surface {
         let rest_position = strip_positions(columns_rows, pitch);
         let count = rest_position.len();
         Self {
-            grid: Grid::new(&rest_position, 4.0 * pitch),
+            grid: Grid::strip(&rest_position, columns_rows, pitch),
             nodes: Nodes {
                 rest_position,
                 normal: vec![Vector3::z(); count],
