@@ -320,6 +320,10 @@ impl Integrator {
     /// projection. A guided body is paid for by what leads it: nothing is scaled.
     /// A `gain` [J] of the energy is taken with the wear.
     pub(crate) fn charge(&mut self, toll: &Toll, gain: f64, state: &mut State) -> Charge {
+        let has_columns = self.contacts.iter().any(|c| matches!(c, Contact::Columns(_)));
+        if !has_columns && gain == 0.0 && self.short == 0.0 {
+            return Charge { share: 1.0, ..Charge::default() };
+        }
         let guided = self.dynamics.is_guided();
         let flow_cost = toll.wear + toll.flow.friction;
         let (flow_gain, spring_gain) = if flow_cost > 0.0 { (gain, 0.0) } else { (0.0, gain) };
