@@ -47,6 +47,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         resolver: ResolverCounts { micro: 1, ..Default::default() },
         resolver_reasons: Default::default(),
         wall: 0.0123,
+        setup: 0.0004,
         simulated: 1.2e-5,
         steps: 312,
         node_evaluations: 20_512,

@@ -29,6 +29,9 @@ pub struct Summary {
     /// Wall time [s].
     #[serde(rename = "wall_s")]
     pub wall: f64,
+    /// The part of it before the first step: nodes, engine, files opened [s].
+    #[serde(rename = "setup_s", default)]
+    pub setup: f64,
     /// Simulated time [s].
     #[serde(rename = "simulated_s")]
     pub simulated: f64,

@@ -119,6 +119,8 @@ pub fn run(
     let mut bodies = Bodies::new(checked, &built);
     let mut recorder = Recorder::new(checked, &built, &options.folder)?;
     let mut engine = engine(checked, built, options.precision)?;
+    recorder.begin(engine.as_ref(), &bodies)?;
+    let setup = started.elapsed().as_secs_f64();
     let ended = go(checked, engine.as_mut(), &mut bodies, &mut recorder, progress);
     let (end, failure) = match ended {
         Ok(end) => (end, None),
@@ -131,6 +133,7 @@ pub fn run(
         bodies: &bodies,
         precision: options.precision,
         simulated: recorder.time(),
+        setup,
         wall: started.elapsed().as_secs_f64(),
         end,
         failure: failure.as_ref(),
@@ -149,7 +152,6 @@ fn go(
     progress: &mut dyn Progress,
 ) -> Result<stop::End, RunError> {
     let run = &checked.scene.run;
-    recorder.begin(engine, bodies)?;
     loop {
         let time = recorder.time();
         let dt = stop::step_length(run, time).min(recorder.until_frame());

@@ -15,6 +15,7 @@ fn summary() -> Summary {
         resolver: ResolverCounts::default(),
         resolver_reasons: BTreeMap::new(),
         wall: 0.25,
+        setup: 0.01,
         simulated: 1.2e-5,
         steps: 60,
         node_evaluations: 5012,

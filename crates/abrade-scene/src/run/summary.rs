@@ -29,6 +29,7 @@ pub(crate) struct Run<'a> {
     pub precision: Precision,
     pub simulated: f64,
     pub wall: f64,
+    pub setup: f64,
     pub end: End,
     pub failure: Option<&'a RunError>,
 }
@@ -71,6 +72,7 @@ pub(crate) fn summary(run: &Run<'_>) -> Summary {
         },
         resolver_reasons: counts.reasons.clone(),
         wall: run.wall,
+        setup: run.setup,
         simulated: run.simulated,
         steps: counts.steps,
         node_evaluations: counts.node_evaluations,
