@@ -1,6 +1,6 @@
 //! Micro results depend neither on the engine's step nor on the origin nor on its precision.
 
-use crate::run::{Verdict, at, run_with, vector};
+use crate::run::{Verdict, at, run, run_with, vector};
 
 /// Fails for a resolver that leaks the engine's step, rounding or place into the contact.
 #[test]
@@ -44,5 +44,23 @@ fn a_fast_ball_is_caught() {
         let summary = run_with("foundation/oblique_impact.ron", &sets, &["--precision", precision]);
         assert!(at(&summary, "bodies.ball.velocity_m_s.2") > 0.0);
         assert!(at(&summary, "surfaces.plate.wear_volume_m3") > 1e-11);
+    }
+}
+
+/// Fails for a run that looks away from a body before it has seen what the summary tells of it: how
+/// it came, and all of its slide.
+#[test]
+fn a_summary_is_the_same_with_a_history_and_without_one() {
+    let slide = ["bodies.indenter.motion.distance=2 mm", "bodies.indenter.motion.rate_over=1 mm"];
+    for (scene, sets) in [("first_impact.ron", &[][..]), ("paper/scratch.ron", &slide)] {
+        let summary = |outputs: &str| {
+            let sets = sets.iter().chain([&outputs]).map(|set| set.to_string());
+            let mut summary = run(scene, &sets.collect::<Vec<_>>());
+            let times = ["wall_s", "setup_s"].map(|key| summary[key].take().as_f64());
+            assert!(times[1] > Some(0.0) && times[1] < times[0], "{times:?}");
+            summary
+        };
+        let watched = summary("outputs=[History(every: \"10 us\")]");
+        assert_eq!(summary("outputs=[]"), watched, "{scene}");
     }
 }

@@ -72,6 +72,13 @@ pub(crate) struct Slide {
     force_sum: Vector3<f64>,
 }
 
+impl Track {
+    /// Whether its next contact step tells what the summary says of it: its first touch, or its slide.
+    pub(crate) fn learns(&self) -> bool {
+        self.approach.is_none() || self.slide.is_some()
+    }
+}
+
 impl Bodies {
     pub(crate) fn new(checked: &Checked, built: &Built) -> Self {
         let frames: Vec<_> = built.surfaces.values().map(|surface| surface.pose).collect();

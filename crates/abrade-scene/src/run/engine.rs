@@ -12,7 +12,7 @@ pub(crate) trait Engine {
     /// Gives a led surface the velocity with which it follows its path in the next step.
     fn lead(&mut self, surface: usize, stretch: &Stretch);
 
-    /// Steps by at most `dt` [s], showing every contact step to `watch`.
+    /// Steps by at most `dt` [s], showing contact steps to `watch`.
     fn step(&mut self, dt: f64, watch: &mut dyn Watch) -> Result<Stepped, RunError>;
 
     /// State of a body in the world.
@@ -54,8 +54,14 @@ pub(crate) struct Stretch {
 
 /// Sees contact steps.
 pub(crate) trait Watch {
-    /// Called once per contact step, body after body.
+    /// Called once per contact step of a body that it looks at, body after body.
     fn sample(&mut self, sample: &Sample<'_>);
+
+    /// Whether the next contact step of a body tells it anything.
+    fn looks_at(&self, body: usize) -> bool;
+
+    /// Whether it looks at any body.
+    fn watches(&self) -> bool;
 }
 
 /// A contact step of one body, in the world.

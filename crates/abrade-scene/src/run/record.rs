@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 
 use crate::build::Built;
 use crate::check::Checked;
-use crate::run::bodies::Bodies;
+use crate::run::bodies::{Bodies, Track};
 use crate::run::ending::Ending;
 use crate::run::engine::{Engine, Sample, Watch};
 use crate::run::entries::{Entry, entries};
@@ -328,6 +328,14 @@ pub(crate) struct Watcher<'a> {
 }
 
 impl Watch for Watcher<'_> {
+    fn looks_at(&self, body: usize) -> bool {
+        self.recorder.history.is_some() || self.bodies.tracks[body].learns()
+    }
+
+    fn watches(&self) -> bool {
+        self.recorder.history.is_some() || self.bodies.tracks.iter().any(Track::learns)
+    }
+
     fn sample(&mut self, sample: &Sample<'_>) {
         self.bodies.see(sample);
         if self.recorder.history.is_none() {

@@ -197,7 +197,8 @@ impl Engine for World {
 
     fn step(&mut self, dt: f64, watch: &mut dyn Watch) -> Result<Stepped, RunError> {
         self.world.integration_parameters.dt = scalar::narrow(dt);
-        let mut relay = Relay { watch, indices: &self.indices, surfaces: &self.surfaces };
+        let (indices, surfaces) = (&self.indices, &self.surfaces);
+        let mut relay = Relay { watch, indices, surfaces, last: None };
         let report = self.wear.step_observed(&mut self.world, &(), &(), &mut relay);
         let report = report.map_err(|error| self.explain(error))?;
         let mut stepped = Stepped {
@@ -293,11 +294,19 @@ struct Relay<'a> {
     watch: &'a mut dyn Watch,
     indices: &'a HashMap<RigidBodyHandle, usize>,
     surfaces: &'a [SurfaceId],
+    /// The last body and its index: they come one after the other.
+    last: Option<(RigidBodyHandle, usize)>,
 }
 
 impl WearObserver for Relay<'_> {
     fn micro_step(&mut self, step: &MicroStep<'_, '_>) {
-        let Some(&body) = self.indices.get(&step.body) else { return };
+        if self.last.is_none_or(|(last, _)| last != step.body) {
+            self.last = self.indices.get(&step.body).map(|&index| (step.body, index));
+        }
+        let Some((_, body)) = self.last else { return };
+        if !self.watch.looks_at(body) {
+            return;
+        }
         let index = |id: &SurfaceId| self.surfaces.iter().position(|other| other == id);
         let met = step.surfaces.iter().zip(step.instant.surfaces).filter_map(|(id, placed)| {
             let carrier = placed.carrier.as_ref();
@@ -316,6 +325,10 @@ impl WearObserver for Relay<'_> {
             surfaces: &surfaces,
             ledger: step.instant.ledger,
         });
+    }
+
+    fn watches(&self) -> bool {
+        self.watch.watches()
     }
 }
 
