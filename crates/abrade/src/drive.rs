@@ -235,7 +235,8 @@ impl Driven {
         let travel = duration * self.drive.speed;
         let count = (travel / increment).ceil().max(1.0);
         let along = ahead * (travel / count);
-        let press = Press { along, turn: Vector3::zeros(), down, load: self.drive.load };
+        let (turn, load, reach) = (Vector3::zeros(), self.drive.load, f64::INFINITY);
+        let press = Press { along, turn, down, load, reach };
         let creep = Creep { duration, count, scale: increment };
         self.integrator.creep(body, placed, &press, &creep, observer)
     }

@@ -8,7 +8,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::balance::Search;
 use crate::body::{Body, State};
-use crate::encounter::{Advance, EncounterSettings, Instant, Observer, Placed, Skin};
+use crate::encounter::{Advance, EncounterSettings, Instant, Observer, Placed};
 use crate::error::PhysicsError;
 use crate::exit::engulfed;
 use crate::integrate::Integrator;
@@ -28,6 +28,8 @@ pub(crate) struct Press {
     pub down: Vector3<f64>,
     /// Load [N].
     pub load: f64,
+    /// Farthest sinking at which the load is sought [m].
+    pub reach: f64,
 }
 
 /// A way in equal increments.
@@ -52,18 +54,24 @@ impl Integrator {
         press: &Press,
         scale: f64,
     ) -> Result<Trial, PhysicsError> {
-        let limit = 2.0 * body.shape.bounding_radius() + scale;
+        let limit = press.reach.min(2.0 * body.shape.bounding_radius() + scale);
         let last = self.balance;
         let mut evaluations = 0;
         let mut asked = None;
+        let mut excess = 0.0;
         let search = Search::new(press.load, |sink| {
             let trial = self.push(body, placed, press, sink);
             evaluations += trial.evaluations;
             let over = -trial.force().dot(&press.down) - press.load;
             asked = Some(trial);
+            excess = over;
             over
         });
         let found = search.find(last, scale, limit)?;
+        if press.reach.is_finite() && (excess > press.load || found.sink > press.reach) {
+            let (load, depth) = (press.load, found.sink);
+            return Err(PhysicsError::LoadNotReached { load, depth });
+        }
         self.balance = Some(found);
         let mut trial = asked.expect("a search asks");
         trial.evaluations = evaluations;
@@ -141,6 +149,9 @@ pub struct Hold {
     pub increment: f64,
     /// Most balances of a move; a longer one is sampled more coarsely.
     pub limit: u64,
+    /// Farthest sinking of an increment [m]. Where it is finite, a load that is not carried within
+    /// it, or only by a force of more than twice its size, is not reached.
+    pub reach: f64,
 }
 
 impl Pressed {
@@ -154,20 +165,6 @@ impl Pressed {
         settings: EncounterSettings,
     ) -> Result<Self, PhysicsError> {
         Ok(Self { integrator: Integrator::new(body, surfaces, settings)? })
-    }
-
-    /// A pressed `body`, which wears on a surface of its own, near one `surface`. Its nodes find the
-    /// facets of the other no deeper than 0.3 pitches: an [`Hold::increment`] should be well below that.
-    ///
-    /// # Errors
-    /// As [`Encounter::of_two`](crate::Encounter::of_two).
-    pub fn of_two(
-        body: &Body,
-        skin: &Skin<'_>,
-        surface: &Surface,
-        settings: EncounterSettings,
-    ) -> Result<Self, PhysicsError> {
-        Ok(Self { integrator: Integrator::of_two(body, skin, surface, settings)? })
     }
 
     /// Moves the body to `end`, but for its height, wearing what it is pressed against.
@@ -187,18 +184,16 @@ impl Pressed {
         let Some(down) = hold.load.try_normalize(0.0).filter(|_| load.is_finite()) else {
             return Ok(Advance { time: hold.duration, ..Advance::default() });
         };
-        if !self.integrator.touched {
+        if !self.integrator.touching {
             self.lift(body, placed, down);
-            if placed.iter().any(|placed| placed.skin.is_some()) {
-                self.lower(body, placed, down * hold.increment);
-            }
         }
         let way = end.position - body.state.position;
         let way = way - down * down.dot(&way);
         let turn = (end.rotation * body.state.rotation.inverse()).scaled_axis();
         let length = way.norm() + turn.norm() * body.shape.bounding_radius();
         let count = (length / hold.increment).ceil().clamp(1.0, hold.limit.max(1) as f64);
-        let press = Press { along: way / count, turn: turn / count, down, load };
+        let reach = hold.reach;
+        let press = Press { along: way / count, turn: turn / count, down, load, reach };
         let creep = Creep { duration: hold.duration, count, scale: hold.increment };
         self.integrator.creep(body, placed, &press, &creep, observer)
     }
@@ -212,22 +207,6 @@ impl Pressed {
             }
             body.state.position -= down * deepest;
         }
-    }
-
-    /// Lowers a body by increments until the next would touch: nodes of two worn surfaces see no
-    /// further, and a search for the height could miss them.
-    fn lower(&mut self, body: &mut Body, placed: &[Placed<'_>], increment: Vector3<f64>) {
-        let start = body.state.position;
-        let count = 2.0 * body.shape.bounding_radius() / increment.norm();
-        for _ in 0..count as u64 {
-            let clear = body.state.position;
-            body.state.position += increment;
-            if self.integrator.overlaps(body, placed).any(|depth| depth > 0.0) {
-                body.state.position = clear;
-                return;
-            }
-        }
-        body.state.position = start;
     }
 
     /// Ends the contact: what its springs hold is lost, and overhangs break off.
@@ -288,8 +267,13 @@ mod tests {
         let mut integrator = Integrator::new(&body, [&surface], settings).expect("an integrator");
         let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
         let (count, load, scale) = (200, 10e3, 0.05e-3);
-        let mut press =
-            Press { along: Vector3::zeros(), turn: Vector3::zeros(), down: -Vector3::z(), load };
+        let mut press = Press {
+            along: Vector3::zeros(),
+            turn: Vector3::zeros(),
+            down: -Vector3::z(),
+            load,
+            reach: f64::INFINITY,
+        };
         let (mut trials, mut least) = (0.0, f64::INFINITY);
         for i in 0..=count {
             let trial = integrator.press(&body, &placed, &press, scale).expect("a balance");

@@ -231,7 +231,12 @@ impl WearWorld {
     ) {
         let own = self.own(pair);
         let Some((body, is_first)) = moving(pair, world).filter(|_| impulse > 0.0) else { return };
-        if !self.has_plate(own) {
+        // A free body that wears would have to sink to what carries it, and Rapier does not know.
+        let is_free = own.into_iter().flatten().any(|at| {
+            let parent = world.colliders.get(self.surfaces[at].proxy).and_then(|c| c.parent());
+            parent.and_then(|body| world.bodies.get(body)).is_some_and(RigidBody::is_dynamic)
+        });
+        if !is_free && !self.has_plate(own) {
             let bearing = Bearing { pair, own, blow, impulse, body, is_first, reason };
             self.press_lying(&bearing, kept, world);
         }

@@ -13,11 +13,10 @@ use crate::micro::Volumes;
 use crate::quasi_static::{LIMIT, SAMPLES};
 use crate::surface::{SurfaceId, WornCollider};
 
+/// Pitches beyond the worn depths that one sinks at most in an increment.
+const REACH: f64 = 2.0;
 /// Most angle between two balances of the load [rad].
 const ANGLE: f64 = 0.05;
-/// Pitches in which a search for the height of two wearing surfaces begins: their nodes see no
-/// further than 0.3.
-const SIGHT: f64 = 0.1;
 /// Clearance at the start, in pitches.
 const CLEAR: f64 = 0.02;
 /// Pitches of its way for which a contact should not be broken.
@@ -80,11 +79,8 @@ impl Rub {
         let inertia = Inertia { mass: blow.mass, tensor: Matrix3::identity() };
         let body = Body { inertia, rotation_locked: false, ..two.body.clone() };
         let placed = roles.place(surfaces);
-        let pressed = match placed.as_ref().map(|[placed]| (&*placed.surface, &placed.skin)) {
-            Some((surface, Some(skin))) => Pressed::of_two(&body, skin, surface, settings),
-            Some((surface, None)) => Pressed::new(&body, [surface], settings),
-            None => Pressed::new(&body, [], settings),
-        }?;
+        let surface = placed.iter().flatten().map(|placed| &*placed.surface);
+        let pressed = Pressed::new(&body, surface, settings)?;
         let began = seen(start, first).inverse();
         let mut rub = Self { roles, pressed, body, local, offset, began, reach, way: 0.0 };
         rub.body.state = rub.state(start);
@@ -111,14 +107,17 @@ impl Rub {
         let pitch = self.pitch(surfaces);
         let angle = start.rotation.angle_to(&passage.at(1.0).rotation);
         let parts = (way * SAMPLES / pitch).max(angle / ANGLE).ceil().clamp(1.0, LIMIT as f64);
-        let increment = if self.roles.skin.is_some() { SIGHT } else { 1.0 / SAMPLES } * pitch;
+        let increment = pitch / SAMPLES;
         let Some(mut placed) = self.roles.place(surfaces) else { return (Volumes::new(), Ok(())) };
+        // Farther down, another side of the surface would carry the load.
+        let deepest = placed.iter().map(|placed| placed.surface.deepest());
+        let reach = REACH * pitch + deepest.sum::<f64>();
         let mut result = Ok(());
         for part in 1..=parts as u32 {
             let share = f64::from(part) / parts;
             let end = self.state(&passage.at(share));
             let load = self.down(stretch, share) * load;
-            let hold = Hold { load, duration: dt / parts, increment, limit: 1 };
+            let hold = Hold { load, duration: dt / parts, increment, limit: 1, reach };
             match self.pressed.advance(&mut self.body, &mut placed, &end, &hold, &mut ()) {
                 Ok(advance) => {
                     done.steps += advance.steps;

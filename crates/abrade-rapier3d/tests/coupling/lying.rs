@@ -1,8 +1,8 @@
 //! What lies, slides and rolls on closed and on moving surfaces, among other bodies.
 
 use crate::plugin::abrade::{
-    Body, Drive, DriveSolution, Driven, EncounterSettings, HexStrip, Hold, Inertia, Material,
-    Placed, Pressed, Shape, Skin, State, Surface, SurfaceLaws, TriangleMesh,
+    Body, Drive, DriveSolution, Driven, EncounterSettings, HexStrip, Inertia, Material, Placed,
+    Shape, State, Surface, SurfaceLaws, TriangleMesh,
 };
 use crate::plugin::rapier::prelude::*;
 use crate::plugin::{Resolver, SurfaceId, WearEvent, WearSettings, WearWorld, scalar};
@@ -130,14 +130,6 @@ impl Rig {
         Self::new((body, proxy), (surface, offset), at, locked, renew, HEAVY, dt)
     }
 
-    /// Gives the ball a surface of its own.
-    fn dress(&mut self, hardness: f64) -> SurfaceId {
-        let mesh = TriangleMesh::sphere(RADIUS, PITCH).expect("a sphere");
-        let surface = Surface::mesh(&mesh, laws(hardness)).expect("a surface");
-        let proxy = self.world.bodies[self.ball].colliders()[0];
-        self.wear.insert(surface, proxy, &mut self.world.colliders).expect("a proxy")
-    }
-
     /// Lets a motor draw the ball along x.
     fn draw(&mut self, speed: f64) {
         let at = self.world.bodies[self.ball].translation();
@@ -163,11 +155,6 @@ impl Rig {
 
     fn worn(&self) -> f64 {
         self.wear[self.id].wear_volume()
-    }
-
-    /// What the surface has lost, and the ball's own.
-    fn both(&self, own: SurfaceId) -> [f64; 2] {
-        [self.worn(), self.wear[own].wear_volume()]
     }
 
     /// Worn volume per way of the ball [m2], once it has gone a good part of it.
@@ -287,52 +274,6 @@ fn what_bears_too_little_costs_nothing() {
                 assert!(rig.worn() == 0.0 && counters.refused == 0);
             }
             false => assert!(rig.worn() > 0.0 && counters.quasi_static > 10),
-        }
-    }
-}
-
-/// What a block and a ball that wear each other lose along 10 mm, in the core.
-fn reference_of_two(hardness: f64) -> [f64; 2] {
-    let mut surface = block();
-    let mesh = TriangleMesh::sphere(RADIUS, PITCH).expect("a sphere");
-    let mut own = Surface::mesh(&mesh, laws(hardness)).expect("a surface");
-    let at = |x: f64| State::at(Point3::new(x, 0.0, BLOCK[2] + RADIUS + 1e-6));
-    let shape = Shape::ball(RADIUS).expect("a ball");
-    let inertia = Inertia::of_ball(RADIUS, 8000.0);
-    let mut body = Body { shape, inertia, state: at(-0.01), rotation_locked: true };
-    let skin = Skin { surface: &mut own, pose: Isometry3::identity() };
-    let settings = EncounterSettings::default();
-    let mut pressed = Pressed::of_two(&body, &skin, &surface, settings).expect("a contact");
-    let pose = Isometry3::identity();
-    let mut placed = [Placed { surface: &mut surface, pose, carrier: None, skin: Some(skin) }];
-    let load = -Vector3::z() * LOAD;
-    let hold = Hold { load, duration: 1.0, increment: PITCH / 10.0, limit: 4000 };
-    for x in [-0.01, 0.0] {
-        pressed.advance(&mut body, &mut placed, &at(x), &hold, &mut ()).expect("a groove");
-    }
-    [surface, own].map(|surface| surface.worn().displaced())
-}
-
-/// Fails for wear of the harder of two, or of one of equals, and for wear that goes on without a way.
-#[test]
-fn two_surfaces_that_lie_on_each_other_wear_by_their_hardnesses() {
-    for hardness in [10.0, 1.0, 0.5] {
-        let core = reference_of_two(hardness * HARDNESS);
-        for dt in STEPS {
-            let mut rig = Rig::flat(true, HEAVY, dt);
-            let own = rig.dress(hardness * HARDNESS);
-            rig.run(0.05);
-            let still = rig.both(own);
-            rig.run(0.3);
-            assert_eq!(rig.both(own), still);
-            rig.draw(SPEED);
-            rig.run(0.2);
-            let worn = rig.both(own);
-            println!("{hardness} {dt:.4}: {worn:?}, in the core {core:?}");
-            for (worn, core) in worn.into_iter().zip(core) {
-                let close = (worn / core - 1.0).abs() < 0.05;
-                assert!(if core > 0.0 { close } else { worn == 0.0 }, "{worn:e} {core:e}");
-            }
         }
     }
 }
