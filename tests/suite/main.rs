@@ -3,6 +3,7 @@
 mod closed;
 mod convergence;
 mod drive;
+mod faces;
 mod foundation;
 mod led;
 mod ledger;

@@ -138,6 +138,16 @@ pub enum PhysicsError {
         /// Steps taken.
         steps: u64,
     },
+    /// Springs under the faces of a body took or gave energy that it never had.
+    #[error(
+        "the springs under the body's faces are out of balance by {short:e} J, of the {energy:e} J of the contact: nodes nearer to each other, or a higher accuracy, keep it"
+    )]
+    Unbalanced {
+        /// Energy that the body owes the springs [J]; below zero what they owe it.
+        short: f64,
+        /// Its kinetic energy at the first touch, and the work of loads since [J].
+        energy: f64,
+    },
     /// A driven body cannot find the load.
     #[error(
         "the load of {load:e} N is not reached before the body is pressed {depth:e} m into the surface"

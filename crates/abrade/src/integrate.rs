@@ -45,7 +45,7 @@ const TURN: f64 = 0.05;
 #[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "state", serde(remote = "Self"))]
 pub(crate) struct Integrator {
-    settings: EncounterSettings,
+    pub(crate) settings: EncounterSettings,
     pub(crate) dynamics: Dynamics,
     pub(crate) eta: f64,
     pub(crate) contacts: Vec<Contact>,
@@ -85,6 +85,8 @@ pub(crate) struct Integrator {
     pub(crate) balance: Option<Balance>,
     /// Energy that projections with springs were short of [J].
     pub(crate) short: f64,
+    /// Work of loads since the first touch, whatever its sign [J].
+    pub(crate) supplied: f64,
     ledger: Ledger,
 }
 
@@ -146,6 +148,7 @@ impl Integrator {
             ahead: Vector3::zeros(),
             balance: None,
             short: 0.0,
+            supplied: 0.0,
             ledger: Ledger::default(),
         })
     }
@@ -335,7 +338,12 @@ impl Integrator {
             }
             if !self.touched && trial.touching > 0 {
                 self.touched = true;
+                self.supplied = 0.0;
                 self.energy_before = self.relative_energy(body, surfaces);
+            }
+            if dt > OVERLAP_STEP * allowed && self.grows_short(body, surfaces, loads, &trial) {
+                dt *= 0.5;
+                continue;
             }
             // A step cut short at a turning point says nothing of the next one.
             self.next_dt = allowed.min(GROWTH * dt.max(self.next_dt.min(allowed)));
@@ -343,6 +351,7 @@ impl Integrator {
             for placed in surfaces.iter() {
                 engulfed(placed, &body.state)?;
             }
+            self.check_balance(surfaces)?;
             return Ok(dt);
         }
     }
@@ -389,6 +398,7 @@ impl Integrator {
             ledger.wear += spent.wear;
             ledger.history += spent.history;
         }
+        self.supply(body, loads, &trial);
         done.impulse += end.impulse;
         done.twist += end.twist;
         done.steps += 1;
@@ -477,7 +487,7 @@ impl Integrator {
         let mut pairs = self.contacts.iter().zip(&self.node_counts);
         let within = pairs.all(|(contact, &nodes)| contact.lies_on(nodes));
         require(same && within, "a candidate is no node of its surface")?;
-        let energies = finite(&[self.energy_before, self.short]);
+        let energies = finite(&[self.energy_before, self.supplied, self.short]);
         let hands = self.hands.iter().all(Hand::is_finite);
         let balance = self.balance.is_none_or(|balance| balance.is_finite());
         let finite = energies && hands && balance && self.pull.is_finite();

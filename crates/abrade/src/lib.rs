@@ -17,6 +17,7 @@ mod column_law;
 mod columns;
 mod contact;
 mod damping;
+mod debt;
 mod drive;
 mod elastic;
 mod encounter;

@@ -292,7 +292,20 @@ impl Integrator {
         Prediction { velocity: velocity * share, spin: spin * share, share }
     }
 
-    fn has_sprung_columns(&self) -> bool {
+    /// What the springs under faces would be out of balance by after the trial [J]; with surfaces at
+    /// rest and without dashpots.
+    pub(crate) fn foreseen_short(&self, body: &Body, loads: &Loads, trial: &Trial) -> f64 {
+        if self.dynamics.is_guided() {
+            return 0.0;
+        }
+        let (springs, toll) = (&trial.springs, &trial.toll);
+        let mut state = trial.state;
+        self.kick(body, loads, &springs.force, &springs.torque, 0.5 * trial.dt, &mut state);
+        let cost = toll.spring.friction + toll.elastic + toll.lost + self.short;
+        balance(self.change(&toll.spring, &state, |answer| &answer.sprung), cost).1
+    }
+
+    pub(crate) fn has_sprung_columns(&self) -> bool {
         self.contacts.iter().any(|c| matches!(c, Contact::Columns(_)) && !c.is_rigid())
     }
 

@@ -33,7 +33,8 @@ impl UnionInertia {
     /// Mass properties of the union of `balls`.
     ///
     /// # Errors
-    /// No ball, or a ball whose centre or radius is out of range.
+    /// No ball, or a ball whose centre or radius is out of range, so far that volume or inertia is no
+    /// number.
     pub fn of_balls(balls: &[Ball]) -> Result<Self, ShapeError> {
         let Some(first) = balls.first() else {
             return Err(ShapeError::Empty { what: "the union has no balls" });
@@ -64,12 +65,22 @@ impl UnionInertia {
             }
         }
         let found = fine.about_centre();
-        Ok(Self {
+        let sized = Self {
             volume: found.volume * scale.powi(3),
             centre: Point3::from(found.centre.coords * scale + origin),
             tensor: found.tensor * scale.powi(5),
             error: found.difference(&coarse.about_centre()),
+        };
+        let can_be_said = sized.volume > 0.0 && sized.tensor.trace() > 0.0 && sized.is_finite();
+        can_be_said.then_some(sized).ok_or_else(|| {
+            let allowed = "such that volume and inertia are numbers".into();
+            ParameterError { field: "radius", value: scale, allowed }.into()
         })
+    }
+
+    fn is_finite(&self) -> bool {
+        let numbers = self.tensor.iter().chain(self.centre.iter()).chain([&self.volume]);
+        numbers.into_iter().all(|x| x.is_finite())
     }
 
     fn difference(&self, other: &Self) -> f64 {
