@@ -6,6 +6,7 @@ mod copies;
 mod extremes;
 mod led;
 mod moving;
+mod mutations;
 mod words;
 
 use std::path::PathBuf;
