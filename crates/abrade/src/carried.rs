@@ -15,8 +15,9 @@ use crate::damping::Damping;
 use crate::encounter::{EncounterSettings, Loads, Placed};
 use crate::error::PhysicsError;
 use crate::exit::engulfed;
-use crate::integrate::{GROWTH, Integrator, rejected};
+use crate::integrate::{GROWTH, Integrator};
 use crate::ledger::Ledger;
+use crate::reject::rejected;
 #[cfg(feature = "state")]
 use crate::state::{Fault, finite, not_negative, require};
 use crate::surface::Surface;

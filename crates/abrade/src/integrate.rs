@@ -16,6 +16,7 @@ use crate::error::PhysicsError;
 use crate::exit::engulfed;
 use crate::flight::{acceleration, free_time, time_to_close, top_speed};
 use crate::ledger::Ledger;
+use crate::reject::{OVERLAP_STEP, rejected};
 use crate::rotation::Dynamics;
 #[cfg(feature = "state")]
 use crate::state::{Fault, finite, not_negative, positive, require};
@@ -28,11 +29,6 @@ pub(crate) const ETA: f64 = 0.1;
 const ETA_ACCURACY: f64 = 3e-3;
 /// Hard cap of eta; the linear stability limit is 1.18.
 const ETA_LIMIT: f64 = 0.7;
-/// A trial is rejected above this multiple of eta.
-const REJECT: f64 = 1.5;
-/// Share of the allowed step below which a jump of an overlap is taken as it is: where another
-/// face carves a node, no step is short enough.
-const OVERLAP_STEP: f64 = 1e-2;
 /// Growth of the step from one to the next.
 pub(crate) const GROWTH: f64 = 2.0;
 /// First step into contact, in yield overlaps travelled.
@@ -459,19 +455,6 @@ impl Integrator {
         self.touched = true;
         let stored = self.ledger.elastic;
         self.ledger = Ledger { elastic: stored, elastic_start: stored, ..Ledger::default() };
-    }
-}
-
-/// A smaller step where the trial asks for one.
-pub(crate) fn rejected(trial: &Trial, dt: f64, allowed: f64) -> Option<f64> {
-    if trial.touching == 0 {
-        None
-    } else if dt > REJECT * allowed {
-        Some(allowed.min(0.7 * dt))
-    } else if trial.overlap_change > 1.0 && dt > OVERLAP_STEP * allowed {
-        Some(dt * (0.8 / trial.overlap_change).max(0.1))
-    } else {
-        None
     }
 }
 

@@ -53,6 +53,7 @@ mod projection;
 #[cfg(feature = "serde")]
 pub mod quantity;
 mod query;
+mod reject;
 mod renewal;
 mod reweigh;
 mod rotation;
