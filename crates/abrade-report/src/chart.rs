@@ -154,7 +154,7 @@ impl Chart<'_> {
         let down = PLOT.top + 20.0 + LINE * at as f64;
         let left = PLOT.right + 30.0;
         canvas.line(&[[left, down], [left + 34.0, down]], colour, 3.0)?;
-        let nothing = if line.is_empty() { " (no difference)" } else { "" };
+        let nothing = if line.is_empty() { " (nothing to show)" } else { "" };
         let look = Text { align: Align::Left, ..Text::default() };
         canvas.text([left + 46.0, down], &format!("{}{nothing}", series.name), look);
         Ok(())

@@ -134,14 +134,20 @@ impl Curve {
         let reference = references.of(ladder);
         let row = |(rung, run): (&Rung, &Measured)| {
             let errors = reference.map(|(_, reference)| {
+                let scale = match references.given {
+                    true => references.whole.clone(),
+                    false => Quantities::mean(&reference.landings),
+                };
                 let pairs = run.landings.iter().enumerate();
                 let errors = pairs.map(|(landing, own)| {
-                    Errors::between(own, &references.landing(ladder, reference, landing))
+                    let reference = references.landing(ladder, reference, landing);
+                    Errors::between(own, &reference, &scale)
                 });
                 Errors::rms(&errors.collect::<Vec<_>>())
             });
-            let total: Vec<Errors> =
-                run.landings.iter().map(|own| Errors::between(own, &references.whole)).collect();
+            let whole = &references.whole;
+            let total = run.landings.iter().map(|own| Errors::between(own, whole, whole));
+            let total: Vec<Errors> = total.collect();
             let is_close = |reference: &Rung| {
                 let same = matches!(ladder.against, Against::Finest) && !references.given;
                 let ratio = rung.value / reference.value;

@@ -48,7 +48,7 @@ pub struct Errors {
     pub restitution: Option<f64>,
     /// Of the rebound angle [deg].
     pub angle: Option<f64>,
-    /// Of the spin, as speeds of the body's rim over its speed [-].
+    /// Of the spin, as speeds of the body's rim over its speed before [-].
     pub spin: Option<f64>,
 }
 
@@ -106,24 +106,25 @@ impl Quantities {
 }
 
 impl Errors {
-    /// Of a run against `reference`.
-    pub(crate) fn between(run: &Quantities, reference: &Quantities) -> Self {
-        let relative = |a: f64, b: f64| (b != 0.0).then(|| ((a - b) / b).abs());
+    /// Of a run against `reference`, relative to the sizes of `scale`: the mean of the reference over
+    /// where it lands, for a single landing may wear nothing.
+    pub(crate) fn between(run: &Quantities, reference: &Quantities, scale: &Quantities) -> Self {
+        let relative = |a: f64, b: f64, size: f64| (size != 0.0).then(|| ((a - b) / size).abs());
         let pairs = || run.bodies.iter().zip(&reference.bodies);
         let worst = |of: &dyn Fn(&BodyQuantities, &BodyQuantities) -> Option<f64>| {
             pairs().filter_map(|(a, b)| of(a, b)).reduce(f64::max)
         };
         Self {
-            wear: relative(run.wear, reference.wear),
-            depth: relative(run.depth, reference.depth),
-            force: relative(run.force, reference.force),
-            rate: run.rate.zip(reference.rate).and_then(|(a, b)| relative(a, b)),
+            wear: relative(run.wear, reference.wear, scale.wear),
+            depth: relative(run.depth, reference.depth, scale.depth),
+            force: relative(run.force, reference.force, scale.force),
+            rate: run.rate.zip(reference.rate).and_then(|(a, b)| relative(a, b, scale.rate?)),
             restitution: worst(&|a, b| Some((a.restitution? - b.restitution?).abs())),
             angle: worst(&|a, b| Some((a.angle? - b.angle?).abs())),
             spin: worst(&|a, b| {
                 let apart = [0, 1, 2].map(|axis| a.spin[axis] - b.spin[axis]);
-                let scale = b.speed.max(norm(b.spin) * a.reach);
-                (b.restitution.is_some() && scale > 0.0).then(|| norm(apart) * a.reach / scale)
+                let approach = b.speed / b.restitution?;
+                (approach > 0.0 && approach.is_finite()).then(|| norm(apart) * a.reach / approach)
             }),
         }
     }
