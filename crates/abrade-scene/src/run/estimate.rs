@@ -1,29 +1,43 @@
 //! How far the wear volume of a run may be off, told by the run itself. docs/errors.md sets the
 //! estimates beside the errors of studies, from which their factors are.
 
+use abrade::{ElasticLaw, Piece};
 use abrade_report::summary::{EnergySummary, ErrorEstimate};
 
+use crate::check::Checked;
 use crate::run::engine::Engine;
 
 /// Error by time over the share of the dissipated energy that is numerical.
-const TIME: f64 = 0.5;
+const TIME: f64 = 0.8;
 /// Error by pitch over the scatter on coarser lattices, where energy goes elsewhere than into wear.
-const PITCH: f64 = 0.3;
+const PITCH: f64 = 0.48;
 
-/// The estimate for the first `count` surfaces of an engine.
+/// The estimate for the surfaces of `checked`, the first ones of an engine.
 pub(crate) fn of(
+    checked: &Checked,
     engine: &dyn Engine,
-    count: usize,
     energy: Option<&EnergySummary>,
 ) -> ErrorEstimate {
-    let time = energy.and_then(by_time);
-    let pitch = by_pitch(engine, count, energy);
+    let time = energy.filter(|_| on_springs(checked)).and_then(by_time);
+    let pitch = by_pitch(engine, checked.scene.surfaces.len(), energy);
     let bases = [
         time.map(|_| "time: the ledger's numerical part over the energy dissipated"),
         pitch.map(|_| "pitch: the scatter of the wear volume over coarser lattices in the nodes"),
     ];
     let bases: Vec<&str> = bases.into_iter().flatten().collect();
     ErrorEstimate { time, pitch, basis: (!bases.is_empty()).then(|| bases.join("; ")) }
+}
+
+/// True where springs alone carry the bodies: the ledger of columns is closed by a projection, and
+/// tells nothing of their error.
+fn on_springs(checked: &Checked) -> bool {
+    let is_ball = |piece: &Piece| matches!(piece, Piece::Ball(_));
+    let balls = checked.solids.values().all(|solid| solid.shape.pieces().iter().all(is_ball));
+    checked.scene.surfaces.values().all(|surface| match surface.elastic {
+        ElasticLaw::Rigid => false,
+        ElasticLaw::Foundation { .. } => balls,
+        ElasticLaw::HertzNodes { .. } => true,
+    })
 }
 
 fn by_time(energy: &EnergySummary) -> Option<f64> {

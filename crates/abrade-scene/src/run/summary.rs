@@ -76,7 +76,7 @@ pub(crate) fn summary(run: &Run<'_>) -> Summary {
         simulated: run.simulated,
         steps: counts.steps,
         node_evaluations: counts.node_evaluations,
-        error_estimate: estimate::of(run.engine, surfaces.len(), energy.as_ref()),
+        error_estimate: estimate::of(run.checked, run.engine, energy.as_ref()),
         surfaces,
         bodies,
         energy,
