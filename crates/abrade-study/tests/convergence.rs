@@ -116,7 +116,7 @@ fn errors_count_from_a_file_where_one_is_given() {
 #[test]
 fn a_setting_that_cannot_be_run_is_a_row() {
     let folder = tempfile::tempdir().unwrap();
-    let sets = ["surfaces.plate.geometry.pitch=0.9 mm".to_owned()];
+    let sets = ["surfaces.plate.geometry.pitch=2 mm".to_owned()];
     let variants = vec![Variant::Pitch];
     let plan = Plan { variants, landings: 1, ..Plan::default() };
     let study = study(folder.path(), &sets, plan).unwrap();
