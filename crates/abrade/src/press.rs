@@ -184,7 +184,7 @@ impl Pressed {
         let Some(down) = hold.load.try_normalize(0.0).filter(|_| load.is_finite()) else {
             return Ok(Advance { time: hold.duration, ..Advance::default() });
         };
-        if !self.integrator.touching {
+        if !self.integrator.touched {
             self.lift(body, placed, down);
         }
         let way = end.position - body.state.position;
