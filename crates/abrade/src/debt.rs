@@ -24,7 +24,8 @@ impl Integrator {
         loads: &Loads,
         trial: &Trial,
     ) -> bool {
-        if self.is_damped || !self.has_sprung_columns() || !are_at_rest(surfaces) {
+        let is_led = self.dynamics.is_immovable();
+        if is_led || self.is_damped || !self.has_sprung_columns() || !are_at_rest(surfaces) {
             return false;
         }
         let short = self.foreseen_short(body, loads, trial);
@@ -35,7 +36,9 @@ impl Integrator {
     /// An error when springs under faces are out of balance.
     pub(crate) fn check_balance(&self, surfaces: &[Placed<'_>]) -> Result<(), PhysicsError> {
         let (short, energy) = (self.short, self.contact_energy());
-        match short.abs() > UNBALANCED * energy && are_at_rest(surfaces) {
+        // What leads a body pays whatever it takes.
+        let is_led = self.dynamics.is_immovable();
+        match short.abs() > UNBALANCED * energy && are_at_rest(surfaces) && !is_led {
             true => Err(PhysicsError::Unbalanced { short, energy }),
             false => Ok(()),
         }
