@@ -9,6 +9,7 @@ mod hardness;
 mod led_path;
 mod motion;
 mod placement;
+mod rows;
 mod run;
 mod stream;
 mod surface;

@@ -83,7 +83,7 @@ fn ground(
     positive("spacing", along)?;
     positive("spacing", across)?;
     positive("scale", scale)?;
-    let mut heights = number_rows::read(folder, "heights", file)?;
+    let mut heights = number_rows::read(folder, "height field", file)?;
     heights.rows.iter_mut().flatten().for_each(|height| *height *= scale);
     let mesh = TriangleMesh::height_field(&heights.rows, along, across, base);
     let mesh = mesh.map_err(|error| {

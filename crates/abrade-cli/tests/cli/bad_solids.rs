@@ -123,7 +123,7 @@ fn a_height_below_the_base() {
         &[(PLATE, field), (ON, AT)],
         &[("dunes.csv", "# heights in m\n1, 1, 1\n1, -2, 1\n")],
         &[],
-        r#"error: the heights `dunes.csv` have a bad line
+        r#"error: the height field `dunes.csv` has a bad line
   --> dunes.csv:3:1
    |
  3 | 1, -2, 1

@@ -4,8 +4,7 @@ use abrade::{MeshError, NODE_LIMIT, ParameterError};
 
 use super::Checker;
 use crate::closed::ClosedTrouble;
-use crate::number_rows::{Line, RowsTrouble};
-use crate::problem::{Mark, Problem, Source};
+use crate::number_rows::RowsTrouble;
 use crate::spans::ScenePath;
 
 impl Checker<'_> {
@@ -20,8 +19,7 @@ impl Checker<'_> {
             }
             ClosedTrouble::Heights(RowsTrouble::NotANumber { line, .. })
             | ClosedTrouble::Row { line, .. } => {
-                let title = format!("the heights `{}` have a bad line", line.file);
-                self.refuse_row(&file, title, line, message);
+                self.refuse_row(&file, "height field", line, message);
             }
             ClosedTrouble::NoSolid { error, .. } => self.refuse(&file, message, error.to_string()),
             ClosedTrouble::Mesh(error) => self.refuse_mesh(&geometry, name, error),
@@ -60,21 +58,5 @@ impl Checker<'_> {
                 self.refuse(geometry, message, error.to_string());
             }
         }
-    }
-
-    /// A fault in a file of rows is shown in that file.
-    pub(super) fn refuse_row(
-        &mut self,
-        file: &ScenePath,
-        message: String,
-        line: Line,
-        fault: String,
-    ) {
-        let named = self.mark(file, "named here");
-        let Line { file: name, number: first_line, text } = line;
-        let range = 0..text.len();
-        let source = self.add_source(Source { name, text, first_line });
-        let marks = vec![Mark { source, range, label: fault }, named];
-        self.problems.push(Problem { message, marks, help: None });
     }
 }

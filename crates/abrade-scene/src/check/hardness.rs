@@ -8,10 +8,12 @@ use nalgebra::Point3;
 
 use super::{Checker, finite};
 use crate::hardness::{self, Places};
-use crate::number_rows::{self, RowsTrouble};
 use crate::place;
 use crate::scene::{HardnessMap, Region, SceneSurface};
 use crate::spans::ScenePath;
+
+/// What its file is called in messages.
+const MAP: &str = "hardness map";
 
 impl Checker<'_> {
     /// Checks the hardness maps and the regions of every surface whose nodes are known: a refused
@@ -81,20 +83,7 @@ impl Checker<'_> {
         let is_wrong = wrong_scale.is_some();
         self.ranges(path, [wrong_scale]);
         let path = path.join("file");
-        let bad_line = |file: &str| format!("the hardness map `{file}` has a bad line");
-        let rows = match number_rows::read(folder, "hardness map", &map.file) {
-            Ok(rows) => rows,
-            Err(trouble) => {
-                let message = trouble.to_string();
-                match trouble {
-                    RowsTrouble::Unreadable { .. } => self.refuse(&path, message, ""),
-                    RowsTrouble::NotANumber { line, .. } => {
-                        self.refuse_row(&path, bad_line(&line.file), line, message);
-                    }
-                }
-                return None;
-            }
-        };
+        let rows = self.read_rows(&path, MAP, folder, &map.file)?;
         match Places::of(&rows, map.scale, of_material) {
             Ok(places) if places.is_empty() => {
                 let message = format!("the hardness map `{}` has no line", map.file);
@@ -103,7 +92,7 @@ impl Checker<'_> {
             }
             Ok(places) => (!is_wrong).then_some(places),
             Err((line, fault)) => {
-                self.refuse_row(&path, bad_line(&line.file), line, fault);
+                self.refuse_row(&path, MAP, line, fault);
                 None
             }
         }

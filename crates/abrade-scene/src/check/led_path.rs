@@ -7,12 +7,14 @@ use nalgebra::{Unit, UnitQuaternion, Vector3};
 
 use super::{Checker, finite, vector};
 use crate::led_path::{LedPath, Legs, PathFault, Swing, Way, Waypoint};
-use crate::number_rows::{self, Line, Rows, RowsTrouble};
+use crate::number_rows::{Line, Rows};
 use crate::place;
 use crate::problem::Problem;
 use crate::scene::{PathPoint, Rotation, SceneSurface, SurfaceMotion};
 use crate::spans::ScenePath;
 
+/// What its file is called in messages.
+const PATH: &str = "path";
 /// Least number of steps in a period.
 const LEAST_STEPS: f64 = 20.0;
 /// Least number of steps in a period over the angle of a rocking surface [1/rad]: a quarter turn in
@@ -138,26 +140,13 @@ impl Checker<'_> {
         let is_wrong = wrong_scale.is_some();
         self.ranges(motion, [wrong_scale]);
         let path = motion.join("file");
-        let rows = match number_rows::read(folder, "path", file) {
-            Ok(rows) => rows,
-            Err(trouble) => {
-                let message = trouble.to_string();
-                match trouble {
-                    RowsTrouble::Unreadable { .. } => self.refuse(&path, message, ""),
-                    RowsTrouble::NotANumber { line, .. } => {
-                        self.refuse_row(&path, bad_line(&line.file), line, message);
-                    }
-                }
-                return None;
-            }
-        };
-        let Rows { rows, lines } = rows;
+        let Rows { rows, lines } = self.read_rows(&path, PATH, folder, file)?;
         let mut points = Vec::with_capacity(rows.len());
         for (row, line) in rows.iter().zip(&lines) {
             match waypoint(row, scale) {
                 Ok(point) => points.push(point),
                 Err(fault) => {
-                    self.refuse_row(&path, bad_line(&line.file), line.clone(), fault);
+                    self.refuse_row(&path, PATH, line.clone(), fault);
                     return None;
                 }
             }
@@ -206,14 +195,8 @@ impl Checker<'_> {
             ),
         };
         match (written, number) {
-            (Written::File { name, mut lines }, Some(number)) => {
-                let title = bad_line(&name);
-                self.refuse_row(
-                    &motion.join("file"),
-                    title,
-                    lines.swap_remove(number),
-                    label.into(),
-                );
+            (Written::File { mut lines, .. }, Some(number)) => {
+                self.refuse_row(&motion.join("file"), PATH, lines.swap_remove(number), label);
             }
             (Written::File { name, .. }, None) => {
                 self.refuse(&motion.join("file"), format!("the path `{name}` is none"), label);
@@ -233,10 +216,6 @@ impl Checker<'_> {
             }
         }
     }
-}
-
-fn bad_line(file: &str) -> String {
-    format!("the path `{file}` has a bad line")
 }
 
 /// The point of a line of a file.
