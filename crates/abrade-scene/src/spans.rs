@@ -10,6 +10,7 @@ mod path;
 use std::ops::Range;
 
 pub(crate) use parser::parse;
+pub use path::path;
 pub(crate) use path::{ScenePath, Segment};
 
 /// A value and its place in the text.

@@ -2,8 +2,8 @@
 //! hand.
 
 use abrade::ElasticLaw;
-use abrade_scene::Checked;
 use abrade_scene::scene::{Geometry, Placement, SceneSurface};
+use abrade_scene::{Checked, path};
 
 /// The surfaces as the scene writes them: of copies the one that is copied.
 pub(crate) fn written_surfaces(checked: &Checked) -> Vec<(String, &SceneSurface)> {
@@ -31,7 +31,7 @@ pub(crate) fn number(path: &str, value: f64) -> String {
 pub(crate) fn pitch(checked: &Checked, factor: f64) -> Vec<String> {
     let mut sets = Vec::new();
     for (name, surface) in written_surfaces(checked) {
-        let path = format!("surfaces.{name}.geometry");
+        let path = path(&["surfaces", &name, "geometry"]);
         let mut scale = |pitch: f64| sets.push(number(&format!("{path}.pitch"), pitch * factor));
         match &surface.geometry {
             Geometry::HexStrip { pitch: Some(pitch), rest_area, .. } => {
@@ -66,7 +66,7 @@ pub(crate) fn stiffness(checked: &Checked, factor: f64) -> Vec<String> {
     let mut sets = Vec::new();
     for (name, surface) in written_surfaces(checked) {
         if let ElasticLaw::Foundation { stiffness: Some(stiffness) } = surface.elastic {
-            let path = format!("surfaces.{name}.elastic.stiffness");
+            let path = path(&["surfaces", &name, "elastic", "stiffness"]);
             sets.push(number(&path, stiffness * factor));
         }
     }
@@ -76,7 +76,7 @@ pub(crate) fn stiffness(checked: &Checked, factor: f64) -> Vec<String> {
     }
     for (name, material) in &checked.scene.materials {
         if let Some(young) = material.young {
-            sets.push(number(&format!("materials.{name}.young"), young * factor));
+            sets.push(number(&path(&["materials", name, "young"]), young * factor));
         }
     }
     sets
@@ -89,22 +89,44 @@ fn place_in_cell(landing: u32) -> [f64; 2] {
     [1.0 / golden, 1.0 / (golden * golden)].map(|step| (step * f64::from(landing)).fract())
 }
 
+/// True where all bodies are placed on one plate, which is alike everywhere.
+fn is_alike_everywhere(checked: &Checked) -> bool {
+    let mut plates: Vec<&String> = Vec::new();
+    for body in checked.scene.bodies.values() {
+        let Placement::OnSurface { surface, .. } = &body.position else { return false };
+        plates.push(surface);
+    }
+    plates.dedup();
+    let [plate] = plates[..] else { return false };
+    let surface = checked.scene.surfaces.get(plate);
+    checked.streamed.is_empty()
+        && surface.is_some_and(|s| s.hardness_map.is_none() && s.regions.is_empty())
+}
+
 /// Lets every body that is placed on a plate start elsewhere in the lattice's cell, without
-/// changing anything that a plate without nodes would see.
+/// changing anything that a plate without nodes would see; empty where that cannot be, and for the
+/// landing 0, which is the scene's own.
 pub(crate) fn landing(checked: &Checked, landing: u32) -> Vec<String> {
+    if landing == 0 || !is_alike_everywhere(checked) {
+        return Vec::new();
+    }
     let size = checked.size();
     let [along, across] = place_in_cell(landing);
     let mut sets = Vec::new();
     for (name, body) in &checked.scene.bodies {
         let Placement::OnSurface { surface, at, .. } = &body.position else { continue };
         let Some(pitch) = size.surfaces.get(surface).map(|size| size.pitch) else { continue };
-        if landing == 0 || checked.is_streamed(name) {
-            continue;
-        }
         // Two columns of nodes make a cell.
         let x = at[0] + along * pitch * 3f64.sqrt();
         let y = at[1] + across * pitch;
-        sets.push(format!("bodies.{name}.position.at=({x:e}, {y:e})"));
+        let at = path(&["bodies", name, "position", "at"]);
+        sets.push(format!("{at}=({x:e}, {y:e})"));
     }
     sets
+}
+
+/// The changes as arguments of the command line, each quoted for the shell.
+pub(crate) fn told(sets: &[String]) -> String {
+    let quoted = |set: &String| format!("--set '{}'", set.replace('\'', r"'\''"));
+    sets.iter().map(quoted).collect::<Vec<_>>().join(" ")
 }

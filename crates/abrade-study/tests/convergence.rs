@@ -11,16 +11,16 @@ const SCENE: &str = r#"(
     name: "A ball",
     materials: { "steel": (hardness: "1.7 GPa", young: "200 GPa", friction: 0.3) },
     surfaces: {
-        "plate": (
+        "plate.1": (
             material: "steel",
             geometry: HexStrip(length: "4 mm", width: "3 mm", pitch: "0.1 mm"),
         ),
     },
     bodies: {
-        "ball": (
+        "the ball.": (
             shape: Ball(radius: "3 mm"),
             density: 2500.0,
-            position: OnSurface(surface: "plate", gap: "1 um"),
+            position: OnSurface(surface: "plate.1", gap: "1 um"),
             motion: Impact(speed: "35 m/s", angle: "60 deg"),
         ),
     },
@@ -72,17 +72,20 @@ fn a_row_is_run_again_by_its_changes() {
     let folder = tempfile::tempdir().unwrap();
     let variants = vec![Variant::Pitch];
     let plan = Plan { variants, landings: 1, ..Plan::default() };
-    study(folder.path(), &[], plan).unwrap();
+    let slower = r#"bodies."the ball.".motion.speed=30 m/s"#.to_owned();
+    study(folder.path(), std::slice::from_ref(&slower), plan).unwrap();
     let mut table = csv::Reader::from_path(folder.path().join("study/study.csv")).unwrap();
     let head = table.headers().unwrap().clone();
     let column = |name: &str| head.iter().position(|column| column == name).unwrap();
-    let (sets, wear) = (column("sets"), column("wear_volume_m3"));
+    let (sets, wear) = (column("arguments"), column("wear_volume_m3"));
     let row = table.records().nth(1).unwrap().unwrap();
-    let sets: Vec<String> = row[sets].split(' ').map(str::to_owned).collect();
+    let sets = row[sets].strip_prefix("--set '").and_then(|sets| sets.strip_suffix('\''));
+    let sets: Vec<String> = sets.unwrap().split("' --set '").map(str::to_owned).collect();
+    assert_eq!(sets[0], slower);
     let checked = abrade_scene::load(&folder.path().join("scene.ron"), &sets).unwrap();
     let options = RunOptions { folder: folder.path().join("again"), precision: Precision::Double };
     let run = abrade_scene::run(&checked, &options, &mut Patient).unwrap();
-    assert_eq!(run.summary.surfaces["plate"].wear_volume, row[wear].parse::<f64>().unwrap());
+    assert_eq!(run.summary.surfaces["plate.1"].wear_volume, row[wear].parse::<f64>().unwrap());
 }
 
 /// One that took the first number it found for the reference, or its own finest run all the same,
@@ -116,7 +119,7 @@ fn errors_count_from_a_file_where_one_is_given() {
 #[test]
 fn a_setting_that_cannot_be_run_is_a_row() {
     let folder = tempfile::tempdir().unwrap();
-    let sets = ["surfaces.plate.geometry.pitch=2 mm".to_owned()];
+    let sets = [r#"surfaces."plate.1".geometry.pitch=2 mm"#.to_owned()];
     let variants = vec![Variant::Pitch];
     let plan = Plan { variants, landings: 1, ..Plan::default() };
     let study = study(folder.path(), &sets, plan).unwrap();
@@ -142,4 +145,44 @@ fn the_budget_leaves_finer_settings_out() {
     let (ran, left_out) = (study.curves[0].rows.len(), study.curves[0].left_out);
     assert!(ran >= 1 && left_out >= 1 && ran + left_out == 9, "{ran} {left_out}");
     assert!(plan.folder.join("study.png").exists());
+}
+
+/// One whose finest run was the cheapest for an error that only it can tell, or whose reference was
+/// the last of some ladder and not the finest of all, would name the setting that it compares with.
+#[test]
+fn the_reference_is_no_setting_to_take() {
+    let folder = tempfile::tempdir().unwrap();
+    let variants = vec![Variant::Stiffness, Variant::Accuracy, Variant::Pitch];
+    let seen = study(folder.path(), &[], Plan { variants, ..Plan::default() }).unwrap();
+    assert!(seen.reference.contains("geometry.pitch=2.5e-5'"), "{}", seen.reference);
+    for cheapest in &seen.cheapest {
+        let Some((_, rung, ..)) = &cheapest.setting else { continue };
+        assert!(rung.pitch > 1.9 * 0.25, "{cheapest:?}");
+    }
+    assert!(seen.cheapest[0].setting.is_some());
+    // On one pitch alone, the table says what its errors do not hold.
+    let variants = vec![Variant::Stiffness];
+    let seen = study(folder.path(), &[], Plan { variants, ..Plan::default() }).unwrap();
+    assert!(seen.reference.contains("do not hold that of the pitch"), "{}", seen.reference);
+    assert!(seen.cheapest.iter().all(|cheapest| cheapest.setting.is_none()));
+}
+
+/// One that paired bodies by their places would take one for another.
+#[test]
+fn bodies_of_a_reference_are_found_by_their_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("truth.json");
+    let text = r#"{"bodies": {"a": {"restitution": 0.9}, "the ball.": {"restitution": 0.5}}}"#;
+    std::fs::write(&file, text).unwrap();
+    let plan = Plan {
+        variants: vec![Variant::Accuracy],
+        landings: 1,
+        reference: Some(file),
+        ..Plan::default()
+    };
+    let seen = study(folder.path(), &[], plan).unwrap();
+    let row = &seen.curves[0].rows[0];
+    let restitution = row.mean.bodies["the ball."].restitution.unwrap();
+    assert_eq!(row.errors.restitution, Some((restitution - 0.5).abs()));
+    assert_eq!((row.errors.wear, row.errors.spin), (None, None));
 }

@@ -60,6 +60,15 @@ impl ScenePath {
 impl fmt::Display for ScenePath {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let names: Vec<_> = self.0.iter().map(|segment| segment.name.as_str()).collect();
-        f.write_str(&names.join("."))
+        f.write_str(&path(&names))
     }
+}
+
+/// The path of these names, as `--set` takes it.
+pub fn path(names: &[&str]) -> String {
+    let quoted = |name: &&str| match name.contains('.') {
+        true => format!("\"{name}\""),
+        false => (*name).to_owned(),
+    };
+    names.iter().map(quoted).collect::<Vec<_>>().join(".")
 }

@@ -1,6 +1,6 @@
 //! The settings to take.
 
-use crate::convergence::compare::Curve;
+use crate::convergence::compare::{Curve, Row};
 use crate::convergence::ladder::{Rung, Variant};
 
 /// Errors that a setting is named for [-].
@@ -17,8 +17,8 @@ pub struct Cheapest {
 }
 
 /// The cheapest settings of `curves` for a hundredth, a thousandth and a ten-thousandth. A setting
-/// counts only where every dearer one of its curve is as close: an error that is small by chance is
-/// none.
+/// counts only where every finer one of its curve is as close, for an error that is small by chance is
+/// none, and where the reference tells about it.
 pub(crate) fn cheapest(curves: &[Curve]) -> Vec<Cheapest> {
     TARGETS.iter().map(|&target| Cheapest { target, setting: below(curves, target) }).collect()
 }
@@ -26,13 +26,11 @@ pub(crate) fn cheapest(curves: &[Curve]) -> Vec<Cheapest> {
 fn below(curves: &[Curve], target: f64) -> Option<(Variant, Rung, f64, f64)> {
     let refining = curves.iter().filter(|curve| curve.variant.refines());
     let lasting = refining.flat_map(|curve| {
-        let close = |total: Option<f64>| total.is_some_and(|total| total <= target);
-        let last = curve.rows.iter().rposition(|row| row.failure.is_none() && !close(row.total));
-        let rows = curve.rows.iter().skip(last.map_or(0, |last| last + 1));
-        rows.filter_map(move |row| {
-            let total = row.total.filter(|_| row.failure.is_none())?;
-            Some((curve.variant, row.rung.clone(), row.wall, total))
-        })
+        let judged: Vec<&Row> = curve.rows.iter().filter(|row| row.is_judged).collect();
+        let close = |row: &&Row| row.total.is_some_and(|total| total <= target);
+        let from = judged.iter().rposition(|row| !close(row)).map_or(0, |last| last + 1);
+        let settings = judged.into_iter().skip(from);
+        settings.filter_map(|row| Some((curve.variant, row.rung.clone(), row.wall, row.total?)))
     });
     lasting.min_by(|a, b| a.2.total_cmp(&b.2))
 }

@@ -35,7 +35,8 @@ pub(crate) fn told(curves: &[Curve]) -> [Told; 2] {
 /// Error over estimate; none for an error that is rounding.
 fn ratio(row: &Row, which: usize) -> Option<f64> {
     let error = row.errors.wear.filter(|error| *error > ROUND_OFF)?;
-    Some(error / row.estimates[which]?)
+    let estimate = row.estimates[which].filter(|estimate| *estimate > 0.0)?;
+    Some(error / estimate)
 }
 
 impl Told {

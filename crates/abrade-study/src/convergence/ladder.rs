@@ -1,6 +1,6 @@
 //! What a study varies: ladders of settings, coarse before fine.
 
-use abrade_scene::scene::{Motion, Resolve};
+use abrade_scene::scene::{Motion, Resolve, SurfaceMotion};
 use abrade_scene::{Checked, Precision};
 
 use crate::sets;
@@ -18,7 +18,8 @@ pub enum Variant {
     Single,
     /// The step of the engine, and who resolves the contacts.
     Step(Resolve),
-    /// The stiffness of the elastic law: what softer springs save, and what that changes.
+    /// Young's modulus, or the stiffness where the scene gives it: what softer springs save, and
+    /// what that changes. The calibrated stiffness of `Foundation` follows it within bounds.
     Stiffness,
 }
 
@@ -28,7 +29,9 @@ pub(crate) enum Against {
     /// Its own finest run.
     Finest,
     /// The finest run of another ladder.
-    Of(Variant),
+    FinestOf(Variant),
+    /// The run of another ladder at the same value.
+    SameOf(Variant),
     /// The run at the value 1: the scene as it is.
     Scene,
 }
@@ -42,6 +45,10 @@ pub struct Rung {
     pub sets: Vec<String>,
     /// Precision of the engine.
     pub precision: Precision,
+    /// Factor of the scene's pitch [-].
+    pub pitch: f64,
+    /// Accuracy of the run [-].
+    pub accuracy: f64,
 }
 
 /// The settings of a curve, from coarse to fine.
@@ -89,7 +96,7 @@ impl Variant {
             Self::Step(Resolve::Micro) => "step, Micro",
             Self::Step(Resolve::Lockstep) => "step, Lockstep",
             Self::Step(Resolve::QuasiStatic) => "step, QuasiStatic",
-            Self::Stiffness => "stiffness",
+            Self::Stiffness => "Young's modulus",
         }
     }
 
@@ -99,7 +106,7 @@ impl Variant {
             Self::Accuracy | Self::Single => "accuracy",
             Self::Pitch | Self::Both => "pitch x",
             Self::Step(_) => "step x",
-            Self::Stiffness => "stiffness x",
+            Self::Stiffness => "Young x",
         }
     }
 
@@ -114,51 +121,71 @@ impl Ladder {
     pub(crate) fn of(variant: Variant, checked: &Checked) -> Option<Self> {
         let run = &checked.scene.run;
         let accuracy = |value: f64| vec![sets::number("run.accuracy", value)];
-        let double =
-            |value: f64, sets: Vec<String>| Rung { value, sets, precision: Precision::Double };
+        let rung = |value: f64, sets: Vec<String>| Rung {
+            value,
+            sets,
+            precision: Precision::Double,
+            pitch: 1.0,
+            accuracy: run.accuracy,
+        };
+        let by_accuracy = |a: f64| Rung { accuracy: a, ..rung(a, accuracy(a)) };
+        let by_pitch = |f: f64| Rung { pitch: f, ..rung(f, sets::pitch(checked, f)) };
         let (rungs, against): (Vec<Rung>, _) = match variant {
             Variant::Accuracy => {
-                let rungs = ACCURACIES.iter().map(|&a| double(a, accuracy(a)));
-                (rungs.collect(), Against::Finest)
+                (ACCURACIES.into_iter().map(by_accuracy).collect(), Against::Finest)
             }
             Variant::Single => {
-                let rungs = COARSE_ACCURACIES
-                    .iter()
-                    .map(|&a| Rung { precision: Precision::Single, ..double(a, accuracy(a)) });
-                (rungs.collect(), Against::Of(Variant::Accuracy))
+                let single = |a| Rung { precision: Precision::Single, ..by_accuracy(a) };
+                let rungs = COARSE_ACCURACIES.into_iter().map(single);
+                (rungs.collect(), Against::SameOf(Variant::Accuracy))
             }
-            Variant::Pitch => {
-                let rungs = PITCHES.iter().map(|&f| double(f, sets::pitch(checked, f)));
-                (rungs.collect(), Against::Finest)
-            }
+            Variant::Pitch => (PITCHES.into_iter().map(by_pitch).collect(), Against::Finest),
             Variant::Both => {
-                let rungs = PITCHES.iter().map(|&f| {
+                let rungs = PITCHES.into_iter().map(|f| {
                     let [low, high] = ACCURACY_RANGE;
-                    let mut sets = sets::pitch(checked, f);
-                    sets.extend(accuracy((run.accuracy * f * f).clamp(low, high)));
-                    double(f, sets)
+                    let a = (run.accuracy * f * f).clamp(low, high);
+                    let mut rung = Rung { accuracy: a, ..by_pitch(f) };
+                    rung.sets.extend(accuracy(a));
+                    rung
                 });
                 (rungs.collect(), Against::Finest)
             }
             Variant::Step(resolve) => {
-                let rungs = STEPS.iter().map(|&f| {
+                let rungs = STEPS.into_iter().map(|f| {
                     let step = sets::number("run.step", run.step * f);
-                    double(f, vec![format!("run.resolve={resolve:?}"), step])
+                    rung(f, vec![format!("run.resolve={resolve:?}"), step])
                 });
-                (rungs.collect(), Against::Of(Variant::Accuracy))
+                (rungs.collect(), Against::FinestOf(Variant::Step(Resolve::Auto)))
             }
             Variant::Stiffness => {
-                let rungs = STIFFNESSES.iter().map(|&f| double(f, sets::stiffness(checked, f)));
+                let rungs = STIFFNESSES.into_iter().map(|f| rung(f, sets::stiffness(checked, f)));
                 (rungs.collect(), Against::Scene)
             }
         };
         let varies = rungs.iter().all(|rung| !rung.sets.is_empty())
             && (!matches!(variant, Variant::Pitch | Variant::Both)
                 || !sets::pitch(checked, 1.0).is_empty());
-        // A driven body is led by its drive, whoever resolves the others.
-        let is_driven = |motion: &Motion| matches!(motion, Motion::Drive { .. });
-        let driven = checked.scene.bodies.values().any(|body| is_driven(&body.motion));
-        let idle = driven && matches!(variant, Variant::Step(_) | Variant::Single);
+        let idle = idles(variant, checked);
         (varies && !idle).then_some(Self { variant, rungs, against })
+    }
+}
+
+/// True for what makes no difference to a scene, or cannot resolve it: a driven body is led by its
+/// drive, whoever resolves the others; on closed and moving surfaces Lockstep and QuasiStatic do not
+/// take bodies; QuasiStatic knows no impacts.
+fn idles(variant: Variant, checked: &Checked) -> bool {
+    let scene = &checked.scene;
+    let motions = || scene.bodies.values().map(|body| &body.motion);
+    let is_driven = motions().any(|motion| matches!(motion, Motion::Drive { .. }));
+    let is_struck = motions().any(|motion| matches!(motion, Motion::Impact { .. }));
+    let plates = scene
+        .surfaces
+        .values()
+        .all(|surface| !surface.geometry.is_closed() && surface.motion == SurfaceMotion::Fixed);
+    match variant {
+        Variant::Single | Variant::Step(Resolve::Auto | Resolve::Micro) => is_driven,
+        Variant::Step(Resolve::Lockstep) => is_driven || !plates,
+        Variant::Step(Resolve::QuasiStatic) => is_driven || is_struck || !plates,
+        Variant::Accuracy | Variant::Pitch | Variant::Both | Variant::Stiffness => false,
     }
 }

@@ -54,18 +54,19 @@ pub(crate) struct Runner<'a> {
 struct Watch<'a> {
     progress: &'a mut dyn Progress,
     began: Instant,
-    /// When the present run began.
-    run_began: Instant,
     budget: f64,
+    /// Wall time at which the present run is given up [s].
+    until: f64,
     interrupted: bool,
 }
 
 impl Progress for Watch<'_> {
     fn advance(&mut self, simulated: f64, _: Option<f64>) -> bool {
-        let share = self.began.elapsed().as_secs_f64() / self.budget;
-        self.interrupted |= !self.progress.advance(simulated, Some(share.min(1.0)));
+        let spent = self.began.elapsed().as_secs_f64();
+        let share = (spent / self.budget).min(1.0);
+        self.interrupted |= !self.progress.advance(simulated, Some(share));
         // A run without an end would keep the others waiting.
-        !self.interrupted && self.run_began.elapsed().as_secs_f64() < self.budget
+        !self.interrupted && spent < self.until
     }
 }
 
@@ -77,14 +78,19 @@ impl<'a> Runner<'a> {
         progress: &'a mut dyn Progress,
     ) -> Self {
         let budget = plan.budget;
-        let now = Instant::now();
-        let watch = Watch { progress, began: now, run_began: now, budget, interrupted: false };
+        let began = Instant::now();
+        let watch = Watch { progress, began, budget, until: budget, interrupted: false };
         Self { path, sets, plan, watch }
     }
 
     /// Wall time so far [s].
     pub(crate) fn spent(&self) -> f64 {
         self.watch.began.elapsed().as_secs_f64()
+    }
+
+    /// Gives up what runs for longer than until this wall time [s].
+    pub(crate) fn give_up_after(&mut self, until: f64) {
+        self.watch.until = until;
     }
 
     pub(crate) fn budget(&self) -> f64 {
@@ -100,11 +106,19 @@ impl<'a> Runner<'a> {
         let began = self.spent();
         let mut measured = Measured { wall: f64::INFINITY, ..Measured::default() };
         let mut estimates = [Some(0.0), Some(0.0)];
+        let first = self.checked(rung, Vec::new());
         for landing in 0..self.plan.landings.max(1) {
-            let checked = match self.checked(rung, landing) {
-                Ok(Some(checked)) => checked,
-                // Nothing is placed on a plate: one run tells all.
-                Ok(None) => break,
+            let checked = match &first {
+                Err(failure) => Err(failure.clone()),
+                Ok(first) if landing == 0 => Ok(first.clone()),
+                Ok(first) => match sets::landing(first, landing) {
+                    // It lands nowhere else: one run tells all.
+                    elsewhere if elsewhere.is_empty() => break,
+                    elsewhere => self.checked(rung, elsewhere),
+                },
+            };
+            let checked = match checked {
+                Ok(checked) => checked,
                 Err(failure) => {
                     measured.failure = Some(failure);
                     break;
@@ -119,8 +133,9 @@ impl<'a> Runner<'a> {
                     break;
                 }
             };
-            let reaches = checked.solids.values().map(|solid| solid.shape.bounding_radius());
-            measured.landings.push(Quantities::of(&summary, &reaches.collect::<Vec<_>>()));
+            let solids = checked.solids.iter();
+            let reaches = solids.map(|(name, solid)| (name.clone(), solid.shape.bounding_radius()));
+            measured.landings.push(Quantities::of(&summary, &reaches.collect()));
             measured.wall = measured.wall.min(summary.wall);
             measured.steps += summary.steps as f64;
             measured.node_evaluations += summary.node_evaluations as f64;
@@ -139,27 +154,16 @@ impl<'a> Runner<'a> {
         Ok(measured)
     }
 
-    /// The scene at a setting and a landing; none for a landing that is no other place.
-    fn checked(&self, rung: &Rung, landing: u32) -> Result<Option<Checked>, String> {
+    /// The scene at a setting, with more changes behind it.
+    fn checked(&self, rung: &Rung, more: Vec<String>) -> Result<Checked, String> {
         let mut sets = self.sets.to_vec();
         sets.extend_from_slice(&rung.sets);
         sets.push("outputs=[Energy]".to_owned());
-        let load = |sets: &[String]| {
-            abrade_scene::load(self.path, sets).map_err(|error| {
-                let first = error.problems.first();
-                first.map_or_else(String::new, |problem| problem.message.clone())
-            })
-        };
-        let checked = load(&sets)?;
-        if landing == 0 {
-            return Ok(Some(checked));
-        }
-        let elsewhere = sets::landing(&checked, landing);
-        if elsewhere.is_empty() {
-            return Ok(None);
-        }
-        sets.extend(elsewhere);
-        load(&sets).map(Some)
+        sets.extend(more);
+        abrade_scene::load(self.path, &sets).map_err(|error| {
+            let first = error.problems.first();
+            first.map_or_else(String::new, |problem| problem.message.clone())
+        })
     }
 
     /// The summary of a run, with the least of its wall times, or why it ended early.
@@ -173,18 +177,18 @@ impl<'a> Runner<'a> {
         let options = RunOptions { folder, precision: rung.precision };
         let mut wall = f64::INFINITY;
         for repeat in 1.. {
-            self.watch.run_began = Instant::now();
             let outcome = match abrade_scene::run(checked, &options, &mut self.watch) {
                 Ok(outcome) => outcome,
-                Err(RunError::Build(error)) => return Ok(Err(error.to_string())),
-                Err(error) => return Err(error.into()),
+                Err(error @ (RunError::Report(_) | RunError::Folder { .. })) => {
+                    return Err(error.into());
+                }
+                Err(error) => return Ok(Err(error.to_string())),
             };
             if self.watch.interrupted {
                 return Ok(Err(INTERRUPTED.to_owned()));
             }
             if outcome.interrupted {
-                let seconds = self.plan.budget;
-                return Ok(Err(format!("not at its end after {seconds} s, the study's budget")));
+                return Ok(Err("given up at the end of its part of the budget".to_owned()));
             }
             if let Some(failure) = outcome.failure {
                 return Ok(Err(failure.to_string()));

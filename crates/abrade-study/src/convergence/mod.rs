@@ -9,6 +9,7 @@ mod ladder;
 mod measure;
 mod quantities;
 mod reference;
+mod references;
 mod table;
 
 use std::path::{Path, PathBuf};
@@ -22,8 +23,8 @@ pub use ladder::{Ladder, Rung, Variant};
 pub use quantities::{BodyQuantities, Errors, Quantities};
 
 use crate::error::StudyError;
-use compare::References;
 use measure::{Measured, Runner};
+use references::References;
 
 /// What a study does.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +34,8 @@ pub struct Plan {
     /// Number of places in the cell of a plate's lattice that every setting starts from, at least
     /// one. Errors are root mean squares over them.
     pub landings: u32,
-    /// Wall time after which no finer setting is begun [s], and longest time of a run.
+    /// Wall time [s]. Every ladder has an equal part of what is left of it: no finer setting is begun
+    /// behind its end, and a run that goes on until then is given up.
     pub budget: f64,
     /// A `summary.json`, or one with some of its values, of results to compare with in the place of
     /// the finest run.
@@ -59,6 +61,8 @@ impl Default for Plan {
 pub struct Study {
     /// Name of the scene.
     pub scene: String,
+    /// The changes that the scene was given before all others.
+    pub sets: Vec<String>,
     /// One curve per variant.
     pub curves: Vec<Curve>,
     /// What total errors are counted from, in words.
@@ -98,8 +102,10 @@ pub fn convergence(
         climbed.iter().map(|(ladder, runs)| Curve::new(ladder, runs, &references)).collect();
     let study = Study {
         scene: checked.scene.name.clone(),
+        sets: sets.to_vec(),
         cheapest: cheapest::cheapest(&curves),
-        told: estimates::told(&curves),
+        // Against results from elsewhere both kinds of errors are in every one.
+        told: if references.are_given() { Default::default() } else { estimates::told(&curves) },
         curves,
         reference: references.words(),
         interrupted: runner.is_interrupted(),
@@ -112,6 +118,7 @@ pub fn convergence(
 /// Runs a ladder from coarse to fine, as far as its part of what is left of the budget lets it.
 fn climb(ladder: &Ladder, runner: &mut Runner<'_>, left: f64) -> Result<Vec<Measured>, StudyError> {
     let until = runner.spent() + (runner.budget() - runner.spent()).max(0.0) / left;
+    runner.give_up_after(until);
     let mut runs: Vec<Measured> = Vec::new();
     for rung in &ladder.rungs {
         let costs = runs.iter().rev().map(|run| run.cost).take(2).collect::<Vec<_>>();
@@ -120,8 +127,7 @@ fn climb(ladder: &Ladder, runner: &mut Runner<'_>, left: f64) -> Result<Vec<Meas
             [last, ..] => last,
             [] => 0.0,
         };
-        let begun = runs.iter().any(|run| run.is_done());
-        if runner.is_interrupted() || begun && runner.spent() + next > until {
+        if runner.is_interrupted() || !runs.is_empty() && runner.spent() + next > until {
             break;
         }
         runs.push(runner.measure(ladder.variant, rung)?);

@@ -1,6 +1,9 @@
 //! What the runs of a study are compared by.
 
+use std::collections::BTreeMap;
+
 use abrade_report::Summary;
+use abrade_report::summary::BodySummary;
 
 /// The results of a run that are compared, or their means over several.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -13,8 +16,8 @@ pub struct Quantities {
     pub force: f64,
     /// Wear volume per sliding distance of driven bodies [m2].
     pub rate: Option<f64>,
-    /// The bodies, in the order of their names.
-    pub bodies: Vec<BodyQuantities>,
+    /// The bodies, by their names.
+    pub bodies: BTreeMap<String, BodyQuantities>,
 }
 
 /// How a body left.
@@ -25,7 +28,7 @@ pub struct BodyQuantities {
     /// Angle of the velocity from the surface [deg].
     pub angle: Option<f64>,
     /// Angular velocity [rad/s].
-    pub spin: [f64; 3],
+    pub spin: Option<[f64; 3]>,
     /// Speed [m/s].
     pub speed: f64,
     /// Radius of the ball around it [m].
@@ -59,50 +62,61 @@ pub(crate) const NAMES: [&str; COUNT] =
     ["wear", "depth", "force", "rate", "restitution", "angle_deg", "spin"];
 
 impl Quantities {
-    /// Of a finished run; `reaches` are the radii of its bodies, in the order of their names [m].
-    pub(crate) fn of(summary: &Summary, reaches: &[f64]) -> Self {
+    /// Of a finished run; `reaches` are the radii of its bodies, by their names [m].
+    pub(crate) fn of(summary: &Summary, reaches: &BTreeMap<String, f64>) -> Self {
         let surfaces = || summary.surfaces.values();
         let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-        let bodies = summary.bodies.values().enumerate().map(|(i, body)| BodyQuantities {
-            restitution: body.restitution,
-            angle: body.rebound_angle,
-            spin: body.spin,
-            speed: norm(body.velocity),
-            reach: reaches.get(i).copied().unwrap_or(0.0),
-        });
+        let body = |(name, body): (&String, &BodySummary)| {
+            let quantities = BodyQuantities {
+                restitution: body.restitution,
+                angle: body.rebound_angle,
+                spin: Some(body.spin),
+                speed: norm(body.velocity),
+                reach: reaches.get(name).copied().unwrap_or(0.0),
+            };
+            (name.clone(), quantities)
+        };
         Self {
             wear: surfaces().map(|s| s.wear_volume).sum(),
             depth: largest(&mut surfaces().map(|s| s.max_depth)),
             force: largest(&mut surfaces().map(|s| s.peak_normal_force)),
             rate: surfaces().find_map(|s| s.wear_rate),
-            bodies: bodies.collect(),
+            bodies: summary.bodies.iter().map(body).collect(),
         }
     }
 
     /// Means over runs that differ in where they land.
     pub(crate) fn mean(all: &[Self]) -> Self {
-        let count = all.len().max(1) as f64;
-        let mean = |of: &dyn Fn(&Self) -> f64| all.iter().map(of).sum::<f64>() / count;
-        let some = |of: &dyn Fn(&Self) -> Option<f64>| {
-            let sum: Option<f64> = all.iter().map(of).sum();
-            sum.map(|sum| sum / count)
-        };
-        let bodies = all.iter().map(|q| q.bodies.len()).min().unwrap_or(0);
-        let body = |i: usize| BodyQuantities {
-            restitution: some(&|q| q.bodies[i].restitution),
-            angle: some(&|q| q.bodies[i].angle),
-            spin: [0, 1, 2].map(|axis| mean(&|q| q.bodies[i].spin[axis])),
-            speed: mean(&|q| q.bodies[i].speed),
-            reach: mean(&|q| q.bodies[i].reach),
+        let mean = |of: &dyn Fn(&Self) -> f64| mean(all.iter().map(|q| Some(of(q)))).unwrap_or(0.0);
+        let names = all.first().into_iter().flat_map(|q| q.bodies.keys());
+        let body = |name: &String| {
+            let of = || all.iter().map(|q| q.bodies.get(name).copied().unwrap_or_default());
+            let number =
+                |of: &mut dyn Iterator<Item = f64>| self::mean(of.map(Some)).unwrap_or(0.0);
+            let spin = [0, 1, 2].map(|axis| self::mean(of().map(|b| Some(b.spin?[axis]))));
+            let quantities = BodyQuantities {
+                restitution: self::mean(of().map(|b| b.restitution)),
+                angle: self::mean(of().map(|b| b.angle)),
+                spin: spin[0].zip(spin[1]).zip(spin[2]).map(|((x, y), z)| [x, y, z]),
+                speed: number(&mut of().map(|b| b.speed)),
+                reach: number(&mut of().map(|b| b.reach)),
+            };
+            (name.clone(), quantities)
         };
         Self {
             wear: mean(&|q| q.wear),
             depth: mean(&|q| q.depth),
             force: mean(&|q| q.force),
-            rate: some(&|q| q.rate),
-            bodies: (0..bodies).map(body).collect(),
+            rate: self::mean(all.iter().map(|q| q.rate)),
+            bodies: names.map(body).collect(),
         }
     }
+}
+
+/// The mean of numbers that are all there.
+fn mean(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
+    let values = values.collect::<Option<Vec<f64>>>()?;
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
 impl Errors {
@@ -110,7 +124,8 @@ impl Errors {
     /// where it lands, for a single landing may wear nothing.
     pub(crate) fn between(run: &Quantities, reference: &Quantities, scale: &Quantities) -> Self {
         let relative = |a: f64, b: f64, size: f64| (size != 0.0).then(|| ((a - b) / size).abs());
-        let pairs = || run.bodies.iter().zip(&reference.bodies);
+        let pairs =
+            || run.bodies.iter().filter_map(|(name, own)| Some((own, reference.bodies.get(name)?)));
         let worst = |of: &dyn Fn(&BodyQuantities, &BodyQuantities) -> Option<f64>| {
             pairs().filter_map(|(a, b)| of(a, b)).reduce(f64::max)
         };
@@ -122,7 +137,8 @@ impl Errors {
             restitution: worst(&|a, b| Some((a.restitution? - b.restitution?).abs())),
             angle: worst(&|a, b| Some((a.angle? - b.angle?).abs())),
             spin: worst(&|a, b| {
-                let apart = [0, 1, 2].map(|axis| a.spin[axis] - b.spin[axis]);
+                let (own, other) = (a.spin?, b.spin?);
+                let apart = [0, 1, 2].map(|axis| own[axis] - other[axis]);
                 let approach = b.speed / b.restitution?;
                 (approach > 0.0 && approach.is_finite()).then(|| norm(apart) * a.reach / approach)
             }),

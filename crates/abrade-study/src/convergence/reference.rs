@@ -1,4 +1,5 @@
-//! Results from elsewhere: a `summary.json`, whole or with some of its values alone.
+//! Results from elsewhere: a `summary.json`, whole or with some of its values alone. Its wear volumes
+//! are summed up, as those of a run are; its bodies are found by their names.
 
 use std::path::Path;
 
@@ -22,33 +23,35 @@ pub(crate) fn read(path: &Path) -> Result<(Quantities, String), StudyError> {
 }
 
 fn quantities(value: &Value) -> Quantities {
-    let surfaces = || named(value, "surfaces");
+    let surfaces = || named(value, "surfaces").map(|(_, surface)| surface);
     let number = |of: &Value, key: &str| of.get(key).and_then(Value::as_f64);
     let largest = |key: &str| surfaces().filter_map(|s| number(s, key)).fold(0.0, f64::max);
-    let vector = |of: &Value, key: &str| {
-        [0, 1, 2].map(|i| of.get(key).and_then(|v| v.get(i)).and_then(Value::as_f64).unwrap_or(0.0))
+    let vector = |of: &Value, key: &str| -> Option<[f64; 3]> {
+        let entries = of.get(key)?;
+        let [x, y, z] = [0, 1, 2].map(|i| entries.get(i).and_then(Value::as_f64));
+        Some([x?, y?, z?])
     };
-    let bodies = named(value, "bodies").map(|body| BodyQuantities {
-        restitution: number(body, "restitution"),
-        angle: number(body, "rebound_angle_deg"),
-        spin: vector(body, "spin_rad_s"),
-        // Without the speed, and a reach, spins cannot be compared.
-        speed: vector(body, "velocity_m_s").iter().map(|x| x * x).sum::<f64>().sqrt(),
-        reach: 0.0,
-    });
+    let body = |(name, body): (&String, &Value)| {
+        let velocity = vector(body, "velocity_m_s").unwrap_or_default();
+        let quantities = BodyQuantities {
+            restitution: number(body, "restitution"),
+            angle: number(body, "rebound_angle_deg"),
+            spin: vector(body, "spin_rad_s"),
+            speed: velocity.iter().map(|x| x * x).sum::<f64>().sqrt(),
+            reach: 0.0,
+        };
+        (name.clone(), quantities)
+    };
     Quantities {
         wear: surfaces().filter_map(|s| number(s, "wear_volume_m3")).sum(),
         depth: largest("max_depth_m"),
         force: largest("peak_normal_force_N"),
         rate: surfaces().find_map(|s| number(s, "wear_rate_m2")),
-        bodies: bodies.collect(),
+        bodies: named(value, "bodies").map(body).collect(),
     }
 }
 
-/// The values of a map by name, in the order of the names.
-fn named<'a>(value: &'a Value, key: &str) -> impl Iterator<Item = &'a Value> + use<'a> {
-    let map = value.get(key).and_then(Value::as_object);
-    let mut entries: Vec<(&String, &Value)> = map.into_iter().flatten().collect();
-    entries.sort_by_key(|(name, _)| *name);
-    entries.into_iter().map(|(_, value)| value)
+/// The entries of a map.
+fn named<'a>(value: &'a Value, key: &str) -> impl Iterator<Item = (&'a String, &'a Value)> {
+    value.get(key).and_then(Value::as_object).into_iter().flatten()
 }

@@ -11,9 +11,10 @@ use crate::convergence::cheapest::Cheapest;
 use crate::convergence::compare::{Curve, Row};
 use crate::convergence::quantities::NAMES;
 use crate::error::StudyError;
+use crate::sets;
 
-/// Writes every row of `study`, a unit in every column name; the last column holds the changes of
-/// the scene that make the run again.
+/// Writes every row of `study`, a unit in every column name; the last column holds the
+/// arguments of `abrade run SCENE` that make the first of its landings again.
 pub(crate) fn write(study: &Study, path: &Path) -> Result<(), StudyError> {
     let mut table = csv::Writer::from_writer(Vec::new());
     let errors = NAMES.map(|name| format!("error_{name}"));
@@ -21,6 +22,7 @@ pub(crate) fn write(study: &Study, path: &Path) -> Result<(), StudyError> {
         "varied",
         "value",
         "precision",
+        "landings",
         "wall_s",
         "steps",
         "node_evaluations",
@@ -34,13 +36,13 @@ pub(crate) fn write(study: &Study, path: &Path) -> Result<(), StudyError> {
         "fitted",
     ];
     let head = head.into_iter().map(str::to_owned).chain(errors);
-    let head = head.chain(["failure".to_owned(), "sets".to_owned()]);
+    let head = head.chain(["failure".to_owned(), "arguments".to_owned()]);
     let mut put =
         |record: Vec<String>| table.write_record(record).map_err(|error| in_csv(path, error));
     put(head.collect())?;
     for curve in &study.curves {
         for row in &curve.rows {
-            put(record(curve, row))?;
+            put(record(study, curve, row))?;
         }
     }
     let bytes = table.into_inner().map_err(|error| ReportError::File {
@@ -57,7 +59,7 @@ fn in_csv(path: &Path, error: csv::Error) -> StudyError {
     StudyError::Report(ReportError::File { action, path: path.to_owned(), source })
 }
 
-fn record(curve: &Curve, row: &Row) -> Vec<String> {
+fn record(study: &Study, curve: &Curve, row: &Row) -> Vec<String> {
     let number = |value: f64| if value.is_finite() { format!("{value:e}") } else { String::new() };
     let some = |value: Option<f64>| value.map_or_else(String::new, number);
     let mean = &row.mean;
@@ -71,6 +73,7 @@ fn record(curve: &Curve, row: &Row) -> Vec<String> {
         curve.variant.name().to_owned(),
         number(row.rung.value),
         precision.to_owned(),
+        row.landings.to_string(),
         value(row.wall),
         value(row.steps),
         value(row.node_evaluations),
@@ -85,7 +88,7 @@ fn record(curve: &Curve, row: &Row) -> Vec<String> {
     ];
     record.extend(row.errors.array().map(some));
     record.push(row.failure.clone().unwrap_or_default());
-    record.push(row.rung.sets.join(" "));
+    record.push(arguments(&study.sets, row.rung.precision, &row.rung.sets));
     record
 }
 
@@ -132,7 +135,7 @@ pub(crate) fn text(study: &Study) -> String {
         text.push_str(&told.words(name));
     }
     for cheapest in &study.cheapest {
-        text.push_str(&advice(cheapest));
+        text.push_str(&advice(study, cheapest));
     }
     text
 }
@@ -203,14 +206,25 @@ fn seconds(time: f64) -> String {
     }
 }
 
-fn advice(cheapest: &Cheapest) -> String {
+fn advice(study: &Study, cheapest: &Cheapest) -> String {
     let target = 100.0 * cheapest.target;
     match &cheapest.setting {
         None => format!("for {target} %: no setting of this study\n"),
         Some((variant, rung, wall, total)) => {
-            let sets: Vec<String> = rung.sets.iter().map(|set| format!("--set {set}")).collect();
+            let again = arguments(&study.sets, rung.precision, &rung.sets);
             let (name, wall) = (variant.name(), seconds(*wall));
-            format!("for {target} %: {name}, {wall}, error {total:.1e}: {}\n", sets.join(" "))
+            format!("for {target} %: {name}, {wall}, error {total:.1e}: {again}\n")
         }
+    }
+}
+
+/// What runs a setting again, behind `abrade run SCENE`.
+fn arguments(given: &[String], precision: Precision, own: &[String]) -> String {
+    let mut sets = given.to_vec();
+    sets.extend_from_slice(own);
+    let told = sets::told(&sets);
+    match precision {
+        Precision::Double => told,
+        Precision::Single => format!("--precision f32 {told}"),
     }
 }
