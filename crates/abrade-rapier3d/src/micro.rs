@@ -137,6 +137,7 @@ fn go_in_parts(
         total.steps += part.steps;
         total.node_evaluations += part.node_evaluations;
         total.impulse += part.impulse;
+        total.twist += part.twist;
         total.contact_time += part.contact_time;
         total.exited = part.exited;
         if total.exited {

@@ -55,14 +55,18 @@ impl ToolLoad {
         self.contact_time = self.contact_time.max(advance.contact_time);
     }
 
-    /// Mean force on the tool over the step [N].
+    /// Mean force on the tool over the step [N]; zero before the first.
     pub fn force(&self) -> Vector3<f64> {
-        self.impulse / self.dt
+        self.mean(&self.impulse)
     }
 
-    /// Mean torque on the tool about its centre of mass over the step [N m].
+    /// Mean torque on the tool about its centre of mass over the step [N m]; zero before the first.
     pub fn torque(&self) -> Vector3<f64> {
-        self.twist / self.dt
+        self.mean(&self.twist)
+    }
+
+    fn mean(&self, sum: &Vector3<f64>) -> Vector3<f64> {
+        if self.dt > 0.0 { sum / self.dt } else { Vector3::zeros() }
     }
 }
 
@@ -140,6 +144,8 @@ impl WearWorld {
             return self.end_cuts(tool, |_| true);
         };
         let tracked = Tracked::slot(&mut self.bodies, handle);
+        // What it was in the middle of as a dynamic body is over.
+        tracked.leave(&mut self.surfaces, &mut self.closed, &mut self.events);
         tracked.near.clear();
         let mut lost = tracked.drop_lost_shadow(rb);
         if tracked.is_stale(rb, world.colliders) {

@@ -24,24 +24,35 @@ impl Integrator {
         loads: &Loads,
         trial: &Trial,
     ) -> bool {
-        let is_led = self.dynamics.is_immovable();
-        if is_led || self.is_damped || !self.has_sprung_columns() || !are_at_rest(surfaces) {
+        if !self.has_sprung_columns() || !self.pays_alone(surfaces) {
             return false;
         }
         let short = self.foreseen_short(body, loads, trial);
-        let allowed = SHORT_STEP * self.settings.accuracy * self.contact_energy();
+        let allowed = SHORT_STEP * self.settings.accuracy * self.contact_energy(body, surfaces);
         short.abs() - self.short.abs() > allowed
     }
 
     /// An error when springs under faces are out of balance.
-    pub(crate) fn check_balance(&self, surfaces: &[Placed<'_>]) -> Result<(), PhysicsError> {
-        let (short, energy) = (self.short, self.contact_energy());
-        // What leads a body pays whatever it takes.
-        let is_led = self.dynamics.is_immovable();
-        match short.abs() > UNBALANCED * energy && are_at_rest(surfaces) && !is_led {
+    pub(crate) fn check_balance(
+        &self,
+        body: &Body,
+        surfaces: &[Placed<'_>],
+    ) -> Result<(), PhysicsError> {
+        let short = self.short;
+        if short == 0.0 || !self.pays_alone(surfaces) {
+            return Ok(());
+        }
+        let energy = self.contact_energy(body, surfaces);
+        match short.abs() > UNBALANCED * energy {
             true => Err(PhysicsError::Unbalanced { short, energy }),
             false => Ok(()),
         }
+    }
+
+    /// True where nobody but the body pays: dashpots do, carriers, and what leads a body.
+    fn pays_alone(&self, surfaces: &[Placed<'_>]) -> bool {
+        let at_rest = surfaces.iter().all(|placed| placed.carrier.is_none());
+        at_rest && !self.is_damped && !self.dynamics.is_immovable()
     }
 
     /// Counts what loads exchange with the body over a trial.
@@ -50,12 +61,9 @@ impl Integrator {
             + self.dynamics.work(&loads.torque, &trial.turn).abs();
     }
 
-    /// Energy that the body brought, and that loads have exchanged with it since [J].
-    fn contact_energy(&self) -> f64 {
-        self.energy_before + self.supplied
+    /// Energy that the body brought, or that somebody gave it since, and that loads have exchanged
+    /// with it [J].
+    fn contact_energy(&self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
+        self.energy_before.max(self.relative_energy(body, surfaces)) + self.supplied
     }
-}
-
-fn are_at_rest(surfaces: &[Placed<'_>]) -> bool {
-    surfaces.iter().all(|placed| placed.carrier.is_none())
 }

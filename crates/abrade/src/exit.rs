@@ -77,6 +77,7 @@ impl Integrator {
         for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
             contact.end(placed.surface);
         }
+        self.short = 0.0;
         self.touching = false;
         self.touched = false;
     }

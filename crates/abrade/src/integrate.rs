@@ -332,8 +332,8 @@ impl Integrator {
                 dt = smaller;
                 continue;
             }
-            if !self.touched && trial.touching > 0 {
-                self.touched = true;
+            let touches = !self.touched && trial.touching > 0;
+            if touches {
                 self.supplied = 0.0;
                 self.energy_before = self.relative_energy(body, surfaces);
             }
@@ -341,13 +341,14 @@ impl Integrator {
                 dt *= 0.5;
                 continue;
             }
+            self.touched |= touches;
             // A step cut short at a turning point says nothing of the next one.
             self.next_dt = allowed.min(GROWTH * dt.max(self.next_dt.min(allowed)));
             self.accept(body, surfaces, loads, dt, trial, done);
             for placed in surfaces.iter() {
                 engulfed(placed, &body.state)?;
             }
-            self.check_balance(surfaces)?;
+            self.check_balance(body, surfaces)?;
             return Ok(dt);
         }
     }
@@ -426,6 +427,7 @@ impl Integrator {
         }
         self.pull = Pull::default();
         self.balance = None;
+        self.short = 0.0;
         (self.touching, self.touched) = (false, false);
         self.ledger.history += std::mem::take(&mut self.ledger.elastic);
     }

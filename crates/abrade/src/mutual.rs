@@ -309,10 +309,11 @@ fn turned_round(motion: &Motion, local: &State, seat: &Isometry3<f64>) -> Motion
     let middle = local.position.coords - velocity * (0.5 * dt);
     let half_back = UnitQuaternion::from_scaled_axis(spin * (-0.5 * dt));
     let turn = (half_back * seat.rotation).inverse();
+    let drag = drag.unwrap_or_default() - spin;
     Motion {
         velocity: turn * (spin.cross(&middle) - velocity),
         spin: turn * -spin,
-        drag: Some(turn * (drag.unwrap_or_default() - spin)),
+        drag: (drag != Vector3::zeros()).then(|| turn * drag),
         dt: *dt,
     }
 }

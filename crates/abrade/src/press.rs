@@ -68,7 +68,7 @@ impl Integrator {
             over
         });
         let found = search.find(last, scale, limit)?;
-        if press.reach.is_finite() && (excess > press.load || found.sink > press.reach) {
+        if press.reach.is_finite() && (excess.abs() >= press.load || found.sink > press.reach) {
             let (load, depth) = (press.load, found.sink);
             return Err(PhysicsError::LoadNotReached { load, depth });
         }
@@ -106,6 +106,7 @@ impl Integrator {
                 if press.turn == Vector3::zeros() { body.state.spin } else { press.turn / dt };
             self.lead(body, placed, &trial, [trial.shift / dt, spin]);
             done.impulse += self.pull.force * dt;
+            done.twist += self.pull.torque * dt;
             for placed in placed.iter() {
                 engulfed(placed, &body.state)?;
             }
@@ -150,7 +151,7 @@ pub struct Hold {
     /// Most balances of a move; a longer one is sampled more coarsely.
     pub limit: u64,
     /// Farthest sinking of an increment [m]. Where it is finite, a load that is not carried within
-    /// it, or only by a force of more than twice its size, is not reached.
+    /// it, or only by a force that jumps past it, is not reached.
     pub reach: f64,
 }
 
@@ -180,6 +181,10 @@ impl Pressed {
         observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
         self.integrator.fits_at_rest(placed)?;
+        if !(hold.increment > 0.0 && hold.increment.is_finite()) {
+            let what = "the increment of a hold must be above zero and finite";
+            return Err(PhysicsError::Unsupported { what });
+        }
         let load = hold.load.norm();
         let Some(down) = hold.load.try_normalize(0.0).filter(|_| load.is_finite()) else {
             return Ok(Advance { time: hold.duration, ..Advance::default() });

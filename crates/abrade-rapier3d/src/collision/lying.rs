@@ -76,6 +76,21 @@ impl Lying {
         self.absent <= ABSENT
     }
 
+    /// Has touched in this step, be it in a blow.
+    pub fn is_met(&mut self) {
+        self.absent = 0;
+    }
+
+    /// The body that lies.
+    pub fn body(&self) -> RigidBodyHandle {
+        self.body
+    }
+
+    /// Takes the contact that is pressed, to be ended.
+    pub fn take_rub(&mut self) -> Option<Rub> {
+        self.rub.take()
+    }
+
     /// The contact that is pressed.
     pub fn rub(&self) -> Option<&Rub> {
         self.rub.as_ref()
@@ -102,7 +117,6 @@ impl WearWorld {
         }
         let Some(passage) = Passage::of(bearing.pair, world, &self.before) else { return };
         let lying = kept.get_or_insert_with(|| Lying::new(bearing.body, passage.at(0.0)));
-        lying.absent = 0;
         let mut worn = Volumes::new();
         if is_firm {
             (lying.is_firm, lying.time) = (true, lying.time + dt);

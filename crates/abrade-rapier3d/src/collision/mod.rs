@@ -140,6 +140,9 @@ impl WearWorld {
 
     /// Lets the crowded surfaces wear by what their contacts bore.
     pub(crate) fn collide(&mut self, world: &WorldView<'_>) {
+        if self.current.dt == 0.0 {
+            return;
+        }
         let mut crowded = std::mem::take(&mut self.current.crowded);
         let mut old = std::mem::take(&mut self.bores);
         if crowded.is_empty() && old.is_empty() {
@@ -166,9 +169,17 @@ impl WearWorld {
         let clusters = Clusters::of(contacts, rest);
         for (key, (pair, mut blow, reason)) in met {
             let mut bore = old.remove(&key).unwrap_or_default();
+            if let Some(kept) = &mut bore.kept {
+                kept.is_met();
+            }
             match bore.bear(&mut blow, &clusters, rest) {
                 Bears::Blow => {}
-                Bears::Strikes => self.strike(pair, &blow, reason, world),
+                Bears::Strikes => {
+                    // What lies there would not know the nodes that the blow moves.
+                    let rub = bore.kept.as_mut().and_then(Lying::take_rub);
+                    self.let_go(rub);
+                    self.strike(pair, &blow, reason, world);
+                }
                 Bears::Lies(impulse) => {
                     self.lie(pair, &blow, impulse, &mut bore.kept, reason, world);
                 }
@@ -177,7 +188,9 @@ impl WearWorld {
         }
         for (key, mut bore) in old {
             let Some(mut kept) = bore.kept.take() else { continue };
-            match kept.waits(self.current.dt) {
+            // Somebody else has the body, and wears what it lies on.
+            let is_taken = self.taken.has_body(Some(kept.body()));
+            match !is_taken && kept.waits(self.current.dt) {
                 true => drop(self.bores.insert(key, Bore { kept: Some(kept), ..bore })),
                 false => self.leave_lying(kept),
             }
