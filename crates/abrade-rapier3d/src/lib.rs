@@ -73,6 +73,7 @@ mod shadow;
 mod skin;
 #[cfg(feature = "serde-serialize")]
 mod snapshot;
+mod stand_in;
 mod start;
 mod steer;
 mod step;

@@ -8,16 +8,14 @@
 use abrade::{Carrier, Inertia, Loads};
 use nalgebra::{Isometry3, Point3};
 use rapier::dynamics::{MassProperties, RigidBody, RigidBodyHandle};
-use rapier::geometry::{Collider, ColliderSet, SharedShape};
-use rapier::math::Vector;
-use rapier::parry::shape::TypedShape;
+use rapier::geometry::{Collider, ColliderSet};
 
 use crate::event::WearEvent;
 use crate::surface::{SurfaceId, WornCollider};
 use crate::tracked::Tracked;
 use crate::view::WorldView;
 use crate::world::WearWorld;
-use crate::{derive, scalar, shadow, steer};
+use crate::{derive, scalar, shadow, stand_in, steer};
 
 /// Pitches of depth beyond which what lies, slides or rolls on a solid does not keep it from being
 /// renewed.
@@ -85,15 +83,15 @@ impl WearWorld {
         let worn = &self.surfaces[surface.0];
         let Some(proxy) = world.colliders.get_mut(worn.proxy) else { return };
         let weighed = proxy.mass_properties();
-        if let Some(shape) = shape(proxy, worn) {
+        if let Some(shape) = stand_in::shape(proxy, worn) {
             proxy.set_shape(shape);
         }
         let Some(body) = parent else { return };
         self.glances.forget(body);
-        let Some(rb) = world.bodies.get_mut(body).filter(|rb| rb.is_dynamic()) else { return };
-        let left = density.and_then(|density| Left::of(worn, proxy, density));
-        let Some(left) = left else {
-            // The other shape must not change what the body weighs.
+        let Some(rb) = world.bodies.get_mut(body) else { return };
+        let density = density.filter(|_| rb.is_dynamic());
+        let Some(left) = density.and_then(|density| Left::of(worn, proxy, density)) else {
+            // The other shape must not change what the body weighs, and what it turns about.
             return proxy.set_mass_properties(weighed);
         };
         proxy.set_mass_properties(left.mass_properties(proxy));
@@ -186,26 +184,5 @@ impl Left {
             scalar::to_vector(&moments),
             scalar::to_rotation(&(local.rotation.inverse() * axes)),
         )
-    }
-}
-
-/// What stands for the worn solid in place of the shape of `proxy`; None where that has to stay.
-fn shape(proxy: &Collider, worn: &WornCollider) -> Option<SharedShape> {
-    let nodes = worn.surface.nodes();
-    let place = |i: usize| worn.offset * nodes.position(i);
-    let corners = || -> Vec<Vector> {
-        (0..nodes.len()).map(|i| scalar::to_vector(&place(i).coords)).collect()
-    };
-    match proxy.shape().as_typed_shape() {
-        TypedShape::Ball(ball) => {
-            let farthest = (0..nodes.len()).map(|i| place(i).coords.norm()).fold(0.0, f64::max);
-            Some(SharedShape::ball(ball.radius.min(scalar::narrow(farthest))))
-        }
-        TypedShape::TriMesh(mesh) => {
-            let facets = worn.surface.triangles();
-            SharedShape::trimesh_with_flags(corners(), facets, mesh.flags()).ok()
-        }
-        _ if proxy.shape().is_convex() => SharedShape::convex_hull(&corners()),
-        _ => None,
     }
 }
