@@ -25,6 +25,8 @@ pub(crate) enum Command {
     Study(StudyCommand),
     /// Look over a clump file, or convert it.
     Clump(ClumpArguments),
+    /// List the closed-form laws of wear, or evaluate one.
+    Laws(LawsArguments),
     /// Print the JSON schema of a scene, or its field reference.
     Schema(SchemaArguments),
 }
@@ -127,6 +129,23 @@ impl From<Precision> for abrade_scene::Precision {
             Precision::F64 => Self::Double,
         }
     }
+}
+
+/// Arguments of `laws`.
+#[derive(Args)]
+pub(crate) struct LawsArguments {
+    /// Name of the law; without one, all are listed.
+    pub(crate) name: Option<String>,
+    /// Its conditions and constants, as in angle="30 deg"; bare numbers are in SI. One may be a list,
+    /// as in angle="10 deg, 20 deg".
+    #[arg(value_name = "NAME=VALUE")]
+    pub(crate) given: Vec<String>,
+    /// Tell formula, constants, status and source in the place of a value.
+    #[arg(long, conflicts_with = "csv")]
+    pub(crate) list: bool,
+    /// Print the value as a table with commas.
+    #[arg(long)]
+    pub(crate) csv: bool,
 }
 
 /// Arguments of `clump`.

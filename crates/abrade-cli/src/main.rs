@@ -11,6 +11,7 @@ mod clump;
 mod digest;
 mod failure;
 mod interrupt;
+mod laws;
 mod output_folder;
 mod progress;
 mod quantity_text;
@@ -32,6 +33,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::check(&arguments),
         Command::Study(StudyCommand::Convergence(arguments)) => study::convergence(&arguments),
         Command::Clump(arguments) => clump::clump(&arguments),
+        Command::Laws(arguments) => laws::laws(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
     };
     match result {
