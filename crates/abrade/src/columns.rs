@@ -7,6 +7,8 @@
 
 #[cfg(feature = "bench")]
 mod recorded;
+#[cfg(test)]
+mod tests;
 
 use nalgebra::{Point3, Vector3};
 
@@ -109,19 +111,22 @@ impl Columns {
     }
 
     /// Makes sure that the candidates cover the body at `state`, whose columns may be crossed
-    /// anywhere below their nodes.
+    /// anywhere below their nodes. What the body has left behind is let go, but for overhangs.
     pub(crate) fn cover(&mut self, surface: &Surface, shape: &Shape, state: &State, margin: f64) {
         if self.candidates.slack(shape, state) >= 0.0 {
             return;
         }
-        self.carried.clear();
-        let columns = self.candidates.slots.iter().zip(&self.columns);
-        self.carried.extend(
-            columns
-                .filter(|(_, c)| c.is_cut() || c.squeeze > 0.0)
-                .map(|(slot, column)| (*slot, *column)),
-        );
         self.swept.place(shape, state, state, surface.level());
+        self.carried.clear();
+        // The node knows a column that is open to its floor as well.
+        let knows_more = |(slot, column): &(&Slot, &Column)| {
+            let top = slot.x - slot.n * column.open_depth();
+            column.squeeze > 0.0
+                || column.standing() > 0.0
+                || column.is_cut() && self.swept.meets(&top, &slot.n, margin, own(surface, slot))
+        };
+        let columns = self.candidates.slots.iter().zip(&self.columns).filter(knows_more);
+        self.carried.extend(columns.map(|(slot, column)| (*slot, *column)));
         self.candidates.collect_columns(surface, shape, state, &self.swept, margin);
         let slots = &mut self.candidates.slots;
         slots.retain(|slot| self.carried.binary_search_by_key(&slot.id, |(s, _)| s.id).is_err());
