@@ -72,10 +72,7 @@ impl UnionInertia {
             error: found.difference(&coarse.about_centre()),
         };
         let can_be_said = sized.volume > 0.0 && sized.tensor.trace() > 0.0 && sized.is_finite();
-        can_be_said.then_some(sized).ok_or_else(|| {
-            let allowed = "such that volume and inertia are numbers".into();
-            ParameterError { field: "radius", value: scale, allowed }.into()
-        })
+        can_be_said.then_some(sized).ok_or_else(|| out_of_range(balls, scale).into())
     }
 
     fn is_finite(&self) -> bool {
@@ -246,6 +243,22 @@ fn extent(balls: &[Ball], axis: usize) -> (f64, f64) {
         let (c, r) = (ball.centre[axis], ball.radius);
         (low.min(c - r), high.max(c + r))
     })
+}
+
+/// What keeps volume and inertia of sound balls, the largest of radius `scale` [m], from being numbers:
+/// that radius if that ball alone has none, else the place that is farthest from the first ball.
+fn out_of_range(balls: &[Ball], scale: f64) -> ParameterError {
+    let lone = Moments::of_ball(&Ball { centre: Point3::origin(), radius: scale });
+    let moment = lone.second.trace();
+    let from = |x: f64, axis: usize| (x - balls[0].centre[axis]).abs();
+    let coordinates = balls.iter().flat_map(|ball| ball.centre.iter().copied().enumerate());
+    let farthest = coordinates.max_by(|(a, x), (b, y)| from(*x, *a).total_cmp(&from(*y, *b)));
+    let (field, value) = match farthest {
+        Some((a, x)) if from(x, a) > 0.0 && moment > 0.0 && moment.is_finite() => ("centre", x),
+        _ => ("radius", scale),
+    };
+    let allowed = "such that volume and inertia are numbers".into();
+    ParameterError { field, value, allowed }
 }
 
 fn check(balls: &[Ball]) -> Result<(), ShapeError> {

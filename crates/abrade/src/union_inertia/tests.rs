@@ -76,14 +76,25 @@ fn pairs_are_those_closer_than_their_radii() {
     assert!(UnionInertia::of_balls(&[ball(0.0, 0.0, f64::NAN, 1.0)]).is_err());
 }
 
-/// Fails for a union whose volume or inertia has overflowed or vanished.
+/// Fails for a union whose volume or inertia has overflowed or vanished, and for a radius that is
+/// blamed for a place.
 #[test]
 fn sizes_that_no_number_can_say_are_refused() {
     for radius in [1e-60, 1e60] {
         assert!(UnionInertia::of_balls(&[ball(0.0, 0.0, 0.0, radius)]).is_ok());
     }
     let extreme = [ball(0.0, 0.0, 0.0, 1e-300), ball(1e-300, 0.0, 0.0, 1e200)];
-    for balls in [&extreme[..1], &extreme[1..], &extreme] {
-        assert!(UnionInertia::of_balls(balls).is_err());
+    let far = [ball(0.0, 0.0, 0.0, 1.0), ball(0.0, -1e200, 0.0, 2.0)];
+    for (balls, blamed) in [
+        (&extreme[..1], ("radius", 1e-300)),
+        (&extreme[1..], ("radius", 1e200)),
+        (&extreme, ("radius", 1e200)),
+        (&far, ("centre", -1e200)),
+    ] {
+        let refused = UnionInertia::of_balls(balls);
+        let Err(ShapeError::Parameter(ParameterError { field, value, .. })) = refused else {
+            panic!("{refused:?}");
+        };
+        assert_eq!((field, value), blamed);
     }
 }
