@@ -57,9 +57,8 @@ impl Ahead {
         let mut placed = micro::placed(leaves.iter_mut(), &seats);
         let trace = Trace::new(start.state.position, errand.pull(&body), scene.dt);
         let (observer, frame) = (&mut (), start.frame);
-        let surfaces = ids.clone();
         let mut relay =
-            Relay { observer, body: tracked.handle, frame, surfaces, began: 0.0, trace };
+            Relay { observer, body: tracked.handle, frame, surfaces: ids, began: 0.0, trace };
         encounter.take_reads().for_each(drop);
         let (loads, until) = (&errand.loads, errand.until);
         let advance =
@@ -67,7 +66,7 @@ impl Ahead {
         let track = relay.trace.finish().map(|e| e.grown(start.course.radius()));
         let reads = encounter.take_reads().collect();
         let changes = leaves.into_iter().map(Surface::into_changes).collect();
-        let (end, surfaces) = (body.state, relay.surfaces);
+        let (end, surfaces) = (body.state, ids.clone());
         Ok(Self { end, encounter, surfaces, advance, track, changes, reads })
     }
 

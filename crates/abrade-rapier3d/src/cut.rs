@@ -4,7 +4,7 @@
 //! through the step with the tool if nothing else could meet it; else Rapier pushes it, and it wears by
 //! the blows of that contact.
 
-use abrade::{Body, Encounter, Inertia, Loads, PhysicsError, State, Until};
+use abrade::{Body, Encounter, Loads, PhysicsError, State, Until};
 use nalgebra::{Isometry3, Vector3};
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{Collider, ColliderHandle};
@@ -39,10 +39,11 @@ pub(crate) struct Cut {
 }
 
 impl WearWorld {
-    /// Leads a tool in `state` through one surface.
+    /// Leads a tool in `state` through one surface; `body` is the tool in the core.
     pub(crate) fn cut(
         &mut self,
         tool: &mut Tool,
+        body: &mut Body,
         surface: SurfaceId,
         state: &State,
         world: &WorldView<'_>,
@@ -57,18 +58,16 @@ impl WearWorld {
             Some(pair) => Some(self.reach_of_alone(tool, surface, pair, state, world)?),
             None => None,
         };
-        let Some(body) = Tracked::slot(&mut self.bodies, tool.handle).body() else { return Ok(()) };
-        let mut body = Body { inertia: Inertia::immovable(), ..body.clone() };
-        let mut cut = self.take_cut(tool, surface, &body, world)?;
+        let mut cut = self.take_cut(tool, surface, body, world)?;
         let (frame, dt, handle) = (cut.frame, self.current.dt, tool.handle);
         body.state = state.seen_from(&frame);
         let trace = Trace::new(body.state.position, Vector3::zeros(), dt);
-        let surfaces = vec![surface];
+        let surfaces = &[surface];
         let mut relay = Relay { observer, body: handle, frame, surfaces, began: 0.0, trace };
-        let seats = micro::seats(&[surface], &self.lies, &frame);
-        let mut placed = micro::place(&mut self.surfaces, &[surface], &seats);
+        let seat = micro::seat(surface, &self.lies, &frame);
+        let mut placed = micro::place(&mut self.surfaces, surface, seat);
         let (loads, until) = (Loads::default(), Until::Duration);
-        let done = cut.encounter.advance(&mut body, &mut placed, &loads, dt, until, &mut relay);
+        let done = cut.encounter.advance(body, &mut placed, &loads, dt, until, &mut relay);
         let end = micro::carrier(&placed);
         let volume = self.surfaces[surface.0].owned().settle().displaced();
         if let Ok(advance) = &done {
@@ -147,8 +146,8 @@ impl WearWorld {
     pub(crate) fn end_cuts(&mut self, tool: &mut Tool, which: impl Fn(&Cut) -> bool) {
         for cut in tool.cuts.extract_if(.., |cut| which(cut)) {
             let Cut { surface, mut encounter, frame, mut contact, .. } = cut;
-            let seats = micro::seats(&[surface], &self.lies, &frame);
-            let mut placed = micro::place(&mut self.surfaces, &[surface], &seats);
+            let seat = micro::seat(surface, &self.lies, &frame);
+            let mut placed = micro::place(&mut self.surfaces, surface, seat);
             encounter.end(&mut placed);
             self.surfaces[surface.0].owned().settle();
             self.closed += *encounter.ledger();
@@ -179,9 +178,8 @@ impl WearWorld {
         let size = derive::radius(rb, world.colliders);
         let reach = free::reach(lead, size, &course, self.current.dt);
         let on_it = |lie: &Lie| lie.lead.and_then(|l| l.free).is_some_and(|f| f.body == free.body);
-        let near = |lie: &Lie| tracked.is_some_and(|tracked| tracked.near.contains(&lie.id));
         let meets = |lie: &Lie| match on_it(lie) {
-            true => lie.id != surface && near(lie),
+            true => lie.id != surface && tool.near.contains(&lie.id),
             false => lie.extent.meets(&reach),
         };
         let bound = world.jointed(free.body)

@@ -86,7 +86,7 @@ impl DrivenBody {
         observer: &mut dyn WearObserver,
     ) -> Result<abrade::Advance, PhysicsError> {
         let trace = Trace::new(self.body.state.position, Vector3::zeros(), dt);
-        let surfaces = vec![self.surface];
+        let surfaces = &[self.surface];
         let mut relay = Relay { observer, body: self.handle, frame, surfaces, began: 0.0, trace };
         let pose = Isometry3::identity();
         let mut placed = [Placed::at_rest(worn.owned(), pose)];

@@ -174,22 +174,24 @@ pub(crate) fn carrier(placed: &[Placed<'_>]) -> Option<State> {
 /// Where a surface lies in the frame of an integration, and what carries it.
 pub(crate) type Seat = (Isometry3<f64>, Option<Carrier>);
 
-/// Where the surfaces `ids` lie in `frame`; one whose own that is, exactly at its origin.
+/// Where the surfaces `ids` lie in `frame`.
 pub(crate) fn seats(ids: &[SurfaceId], lies: &[Lie], frame: &Isometry3<f64>) -> Vec<Seat> {
-    let seat = |id: &SurfaceId| {
-        let Some(lie) = Lie::find(lies, *id) else { return (Isometry3::identity(), None) };
-        let pose = match lie.pose == *frame {
-            true => Isometry3::identity(),
-            false => frame.inv_mul(&lie.pose),
-        };
-        let carrier = |lead: Lead| Carrier {
-            state: lead.state.seen_from(frame),
-            inertia: lead.free.map(|free| free.inertia),
-            loads: turned(&lead.loads, frame),
-        };
-        (pose, lie.lead.map(carrier))
+    ids.iter().map(|id| seat(*id, lies, frame)).collect()
+}
+
+/// Where the surface `id` lies in `frame`; one whose own that is, exactly at its origin.
+pub(crate) fn seat(id: SurfaceId, lies: &[Lie], frame: &Isometry3<f64>) -> Seat {
+    let Some(lie) = Lie::find(lies, id) else { return (Isometry3::identity(), None) };
+    let pose = match lie.pose == *frame {
+        true => Isometry3::identity(),
+        false => frame.inv_mul(&lie.pose),
     };
-    ids.iter().map(seat).collect()
+    let carrier = |lead: Lead| Carrier {
+        state: lead.state.seen_from(frame),
+        inertia: lead.free.map(|free| free.inertia),
+        loads: turned(&lead.loads, frame),
+    };
+    (pose, lie.lead.map(carrier))
 }
 
 /// Loads in the world, seen from `frame`.
@@ -210,13 +212,15 @@ pub(crate) fn placed<'a>(
         .collect()
 }
 
-/// The surfaces `ids` themselves on their seats, in that order, to be worn.
-pub(crate) fn place<'a>(
-    surfaces: &'a mut [WornCollider],
-    ids: &[SurfaceId],
-    seats: &[Seat],
-) -> Vec<Placed<'a>> {
-    placed(owned(surfaces, ids), seats)
+/// The surface `id` itself on its seat, to be worn.
+pub(crate) fn place(
+    surfaces: &mut [WornCollider],
+    id: SurfaceId,
+    (pose, carrier): Seat,
+) -> [Placed<'_>; 1] {
+    let surface = surfaces[id.0].owned();
+    surface.settle();
+    [Placed { surface, pose, carrier, skin: None }]
 }
 
 /// The surfaces `ids` themselves, in that order, to be worn.

@@ -60,7 +60,7 @@ pub(crate) struct Relay<'a> {
     pub observer: &'a mut dyn WearObserver,
     pub body: RigidBodyHandle,
     pub frame: Isometry3<f64>,
-    pub surfaces: Vec<SurfaceId>,
+    pub surfaces: &'a [SurfaceId],
     /// Time of the embedder's step at which the call into the core began [s].
     pub began: f64,
     /// Where the centre of mass was, in `frame`.
@@ -74,7 +74,7 @@ impl Observer for Relay<'_> {
             body: self.body,
             time: self.began + instant.time,
             frame: &self.frame,
-            surfaces: &self.surfaces,
+            surfaces: self.surfaces,
             instant,
         });
     }

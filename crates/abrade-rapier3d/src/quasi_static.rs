@@ -99,9 +99,9 @@ impl Pressing {
         }
         let Some(lie) = Lie::find(lies, self.surface) else { return Ok(None) };
         let frame = lie.pose;
-        let mut placed = place(surfaces, &[self.surface], &[(Isometry3::identity(), None)]);
+        let mut placed = place(surfaces, self.surface, (Isometry3::identity(), None));
         let trace = Trace::new(end.position, Vector3::zeros(), dt);
-        let ids = vec![self.surface];
+        let ids = &[self.surface];
         let mut relay = Relay { observer, body: handle, frame, surfaces: ids, began: 0.0, trace };
         let hold = Hold {
             load: -Vector3::z() * load,
@@ -121,7 +121,7 @@ impl Pressing {
 
     /// Ends the contact: overhangs break off.
     pub fn end(&mut self, surfaces: &mut [WornCollider]) -> abrade::Ledger {
-        let mut placed = place(surfaces, &[self.surface], &[(Isometry3::identity(), None)]);
+        let mut placed = place(surfaces, self.surface, (Isometry3::identity(), None));
         self.pressed.end(&mut placed);
         *self.pressed.ledger()
     }

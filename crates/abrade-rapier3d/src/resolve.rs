@@ -178,7 +178,7 @@ impl WearWorld {
             }
             How::Whole | How::Parts => {
                 let trace = Trace::new(start.state.position, errand.pull(body), dt);
-                let surfaces = start.surfaces;
+                let surfaces = &start.surfaces;
                 let mut relay =
                     Relay { observer, body: handle, frame, surfaces, began: 0.0, trace };
                 errand.in_parts = matches!(how, How::Parts);

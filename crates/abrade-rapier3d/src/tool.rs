@@ -1,7 +1,7 @@
 //! Tools: kinematic bodies that the embedder has said cut. They wear what they are led through, and
 //! nothing that they meet turns them aside, so that each of their contacts is on its own.
 
-use abrade::{Advance, Ledger, State};
+use abrade::{Advance, Inertia, Ledger, State};
 use nalgebra::{Isometry3, Vector3};
 use rapier::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet, RigidBodyType};
 
@@ -14,7 +14,7 @@ use crate::held;
 use crate::observer::WearObserver;
 use crate::shadow::Shadow;
 use crate::surface::{SurfaceId, WornCollider};
-use crate::tracked::Tracked;
+use crate::tracked::{Known, Tracked};
 use crate::view::WorldView;
 use crate::world::WearWorld;
 use crate::{derive, scalar, steer};
@@ -25,6 +25,9 @@ pub(crate) struct Tool {
     pub handle: RigidBodyHandle,
     pub cuts: Vec<Cut>,
     pub load: ToolLoad,
+    /// Surfaces that it comes near in the step under way.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    pub near: Vec<SurfaceId>,
     /// Where it ends in the step under way, in a frame.
     #[cfg_attr(feature = "serde-serialize", serde(skip))]
     pub end: Option<(Isometry3<f64>, State)>,
@@ -72,8 +75,8 @@ impl ToolLoad {
 
 impl Tool {
     fn new(handle: RigidBodyHandle) -> Self {
-        let (cuts, load, end, left) = (Vec::new(), ToolLoad::default(), None, Vec::new());
-        Self { handle, cuts, load, end, left }
+        let (cuts, load, end) = (Vec::new(), ToolLoad::default(), None);
+        Self { handle, cuts, load, near: Vec::new(), end, left: Vec::new() }
     }
 
     /// True while a contact of it with `surface` is open.
@@ -135,6 +138,7 @@ impl WearWorld {
             self.look_at_tool(tool, world);
             world.bodies.contains(tool.handle)
         });
+            tool.near.clear();
         self.tools = tools;
     }
 
@@ -146,7 +150,6 @@ impl WearWorld {
         let tracked = Tracked::slot(&mut self.bodies, handle);
         // What it was in the middle of as a dynamic body is over.
         tracked.leave(&mut self.surfaces, &mut self.closed, &mut self.events);
-        tracked.near.clear();
         let mut lost = tracked.drop_lost_shadow(rb);
         if tracked.is_stale(rb, world.colliders) {
             rb.recompute_mass_properties_from_colliders(world.colliders);
@@ -156,9 +159,9 @@ impl WearWorld {
         let state = gate::led(rb, tracked.state(rb), self.current.dt);
         let course = Course::from_state(state, Vector3::zeros(), tracked.radius);
         let surfaces = &self.surfaces;
-        course.near(&self.lies, surfaces, self.current.sight, &mut tracked.near);
-        tracked.near.retain(|id| gate::feels(rb, &surfaces[id.0], world.colliders));
-        let near = tracked.near.clone();
+        let mut near = std::mem::take(&mut tool.near);
+        course.near(&self.lies, surfaces, self.current.sight, &mut near);
+        near.retain(|id| gate::feels(rb, &surfaces[id.0], world.colliders));
         let leads = near.iter().filter_map(|id| Lie::find(&self.lies, *id)?.lead);
         for (lead, free) in leads.filter_map(|lead| Some((lead, lead.free?))) {
             let rb = world.bodies.get(free.body);
@@ -172,6 +175,7 @@ impl WearWorld {
     }
 
     /// Leads every tool through the surfaces that it is near.
+        tool.near = near;
     pub(crate) fn lead_tools(&mut self, world: &WorldView<'_>, observer: &mut dyn WearObserver) {
         let mut tools = std::mem::take(&mut self.tools);
         for tool in &mut tools {
@@ -189,9 +193,8 @@ impl WearWorld {
     ) {
         let handle = tool.handle;
         let tracked = Tracked::slot(&mut self.bodies, handle);
-        let near = tracked.near.clone();
         let rb = world.bodies.get(handle).filter(|rb| is_led(rb));
-        let (Some(rb), Some(&first)) = (rb, near.first()) else { return };
+        let (Some(rb), Some(&first)) = (rb, tool.near.first()) else { return };
         let own = |worn: &WornCollider| rb.colliders().contains(&worn.proxy);
         let refusal = match tracked.derive(rb, world.colliders) {
             Err(refusal) => Some(refusal),
@@ -202,8 +205,13 @@ impl WearWorld {
             return self.refuse(handle, first, refusal);
         }
         let state = gate::led(rb, tracked.state(rb), self.current.dt);
-        for surface in near {
-            if let Err(left) = self.cut(tool, surface, &state, world, observer) {
+        // Taken out, and put back: it holds a shape.
+        let known = std::mem::replace(&mut tracked.known, Known::Unseen);
+        let Known::Ready(mut body) = known else { return };
+        let inertia = std::mem::replace(&mut body.inertia, Inertia::immovable());
+        for at in 0..tool.near.len() {
+            let surface = tool.near[at];
+            if let Err(left) = self.cut(tool, &mut body, surface, &state, world, observer) {
                 self.end_cuts(tool, |cut| cut.surface == surface);
                 self.leave_cut(tool, surface, left);
             }
@@ -211,6 +219,8 @@ impl WearWorld {
     }
 
     /// After Rapier's step: where the tools are exactly, and what they bore by its contacts.
+        body.inertia = inertia;
+        Tracked::slot(&mut self.bodies, handle).known = Known::Ready(body);
     pub(crate) fn settle_tools(&mut self, world: &mut WorldView<'_>) {
         for tool in &mut self.tools {
             let Some(rb) = world.bodies.get_mut(tool.handle) else { continue };

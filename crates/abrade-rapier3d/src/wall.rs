@@ -183,8 +183,8 @@ impl WearWorld {
             let Some(striker) = striker else { return Ok(false) };
             (against.striker, against.part) = (striker, part);
         }
-        let seats = micro::seats(&[*surface], &self.lies, &frame);
-        let mut placed = micro::place(&mut self.surfaces, &[*surface], &seats);
+        let seat = micro::seat(*surface, &self.lies, &frame);
+        let mut placed = micro::place(&mut self.surfaces, *surface, seat);
         let (loads, dt) = (Loads::default(), self.current.dt);
         let Against { striker, encounter, .. } = against;
         let advance =

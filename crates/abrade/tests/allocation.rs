@@ -3,45 +3,15 @@
 //! (The first begins without a step length to go by, so that only the second and the third take
 //! the same steps.) A contact that needs a longer candidate list than any before it may allocate.
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
+mod counting;
 
 use abrade::{
     Ball, Body, ElasticLaw, Encounter, EncounterSettings, FlowLaw, HertzConvention, HexStrip, Hull,
     Inertia, Instant, Lateral, Loads, Material, Observer, Piece, Placed, Polyhedron, Removal,
     Shape, State, Surface, SurfaceLaws, Until,
 };
+use counting::counted;
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
-
-struct Counting;
-
-thread_local! {
-    static COUNT: Cell<usize> = const { Cell::new(0) };
-}
-
-fn count() {
-    COUNT.with(|count| count.set(count.get() + 1));
-}
-
-// Safety: passes every call on to the system's allocator.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count();
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        unsafe { System.dealloc(pointer, layout) }
-    }
-
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        count();
-        unsafe { System.realloc(pointer, layout, size) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 /// Allocations seen up to the first step, and up to the last.
 #[derive(Default)]
@@ -53,7 +23,7 @@ struct Watch {
 
 impl Observer for Watch {
     fn observe(&mut self, _: &Instant<'_, '_>) {
-        self.last = COUNT.with(Cell::get);
+        self.last = counted();
         self.first.get_or_insert(self.last);
         self.steps += 1;
     }
