@@ -4,7 +4,7 @@ use abrade::{Body, Drive, Driven, Ledger, PhysicsError, Placed};
 use nalgebra::{Isometry3, Vector3};
 use rapier::dynamics::{RigidBodyHandle, RigidBodySet};
 
-use crate::error::WearError;
+use crate::error::{Led, WearError};
 use crate::observer::{Relay, WearObserver};
 use crate::scalar;
 use crate::surface::{SurfaceId, WornCollider};
@@ -27,7 +27,8 @@ impl WearWorld {
     /// follows the core.
     ///
     /// # Errors
-    /// There is no such body, or it is not kinematic; a drive that the surface's laws refuse.
+    /// There is no such body, or it is not kinematic, or it is a tool; a drive that the surface's laws
+    /// refuse.
     pub fn drive(
         &mut self,
         surface: SurfaceId,
@@ -38,6 +39,9 @@ impl WearWorld {
     ) -> Result<(), WearError> {
         let rb = bodies.get(handle).filter(|rb| rb.is_kinematic());
         rb.ok_or(WearError::NotKinematic { body: handle })?;
+        if self.find_tool(handle).is_some() {
+            return Err(WearError::LedAlready { body: handle, led: Led::Tool });
+        }
         let worn = &self.surfaces[surface.0].surface;
         let driven = Driven::new(&mut body, worn, drive, self.settings.encounter())
             .map_err(|source| WearError::Physics { body: handle, surface, source })?;

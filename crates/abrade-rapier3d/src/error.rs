@@ -7,6 +7,17 @@ use thiserror::Error;
 
 use crate::surface::SurfaceId;
 
+/// How the core leads a kinematic body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum Led {
+    /// By [`WearWorld::drive`](crate::WearWorld::drive).
+    #[error("driven")]
+    Driven,
+    /// As the embedder leads it, since [`WearWorld::add_tool`](crate::WearWorld::add_tool).
+    #[error("a tool")]
+    Tool,
+}
+
 /// An error of a wear world.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum WearError {
@@ -35,6 +46,14 @@ pub enum WearError {
     NotKinematic {
         /// The handle given.
         body: RigidBodyHandle,
+    },
+    /// The body is driven, or a tool, already: a kinematic body may be one of the two.
+    #[error("body {body:?} is {led} already: a kinematic body may be driven or a tool, not both")]
+    LedAlready {
+        /// The body.
+        body: RigidBodyHandle,
+        /// What it is.
+        led: Led,
     },
     /// A contact left the reach of the model; Rapier kept the body's contact for that step, or the
     /// body was stopped in its crater.

@@ -86,7 +86,7 @@ mod view;
 mod wall;
 mod world;
 
-pub use error::WearError;
+pub use error::{Led, WearError};
 pub use event::{Refusal, WearEvent};
 pub use guard::WearGuard;
 pub use observer::{MicroStep, WearObserver};

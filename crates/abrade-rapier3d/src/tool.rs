@@ -6,7 +6,7 @@ use nalgebra::{Isometry3, Vector3};
 use rapier::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet, RigidBodyType};
 
 use crate::cut::Cut;
-use crate::error::WearError;
+use crate::error::{Led, WearError};
 use crate::event::Refusal;
 use crate::free;
 use crate::gate::{self, Course, Lie};
@@ -97,7 +97,7 @@ impl WearWorld {
     /// It must be clear of a surface to begin with.
     ///
     /// # Errors
-    /// There is no such body, or it is not kinematic.
+    /// There is no such body, or it is not kinematic, or it is driven.
     pub fn add_tool(
         &mut self,
         handle: RigidBodyHandle,
@@ -105,6 +105,9 @@ impl WearWorld {
     ) -> Result<(), WearError> {
         let rb = bodies.get(handle).filter(|rb| rb.is_kinematic());
         rb.ok_or(WearError::NotKinematic { body: handle })?;
+        if self.driven(handle).is_some() {
+            return Err(WearError::LedAlready { body: handle, led: Led::Driven });
+        }
         if self.find_tool(handle).is_none() {
             self.tools.push(Tool::new(handle));
         }
@@ -135,10 +138,10 @@ impl WearWorld {
         tools.retain_mut(|tool| {
             (tool.load, tool.end) = (ToolLoad::default(), None);
             tool.left.clear();
+            tool.near.clear();
             self.look_at_tool(tool, world);
             world.bodies.contains(tool.handle)
         });
-            tool.near.clear();
         self.tools = tools;
     }
 
@@ -172,10 +175,10 @@ impl WearWorld {
             self.current.reach = Some(joined);
         }
         self.end_cuts(tool, |cut| lost || !near.contains(&cut.surface));
+        tool.near = near;
     }
 
     /// Leads every tool through the surfaces that it is near.
-        tool.near = near;
     pub(crate) fn lead_tools(&mut self, world: &WorldView<'_>, observer: &mut dyn WearObserver) {
         let mut tools = std::mem::take(&mut self.tools);
         for tool in &mut tools {
@@ -216,11 +219,11 @@ impl WearWorld {
                 self.leave_cut(tool, surface, left);
             }
         }
+        body.inertia = inertia;
+        Tracked::slot(&mut self.bodies, handle).known = Known::Ready(body);
     }
 
     /// After Rapier's step: where the tools are exactly, and what they bore by its contacts.
-        body.inertia = inertia;
-        Tracked::slot(&mut self.bodies, handle).known = Known::Ready(body);
     pub(crate) fn settle_tools(&mut self, world: &mut WorldView<'_>) {
         for tool in &mut self.tools {
             let Some(rb) = world.bodies.get_mut(tool.handle) else { continue };

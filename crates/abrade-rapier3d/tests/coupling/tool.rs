@@ -1,9 +1,10 @@
 //! Tools: kinematic bodies led through wear surfaces.
 
-use super::rig::{DENSITY, HALF_THICKNESS, RADIUS, Rig, surface};
+use super::rig::{self, DENSITY, HALF_THICKNESS, RADIUS, Rig, surface};
+use crate::plugin;
 use crate::plugin::abrade::{
-    Body, Encounter, EncounterSettings, Inertia, Loads, Material, PhysicsError, Placed, Shape,
-    State, Surface, SurfaceLaws, TriangleMesh, Until,
+    Body, Drive, DriveSolution, Encounter, EncounterSettings, Inertia, Loads, Material,
+    PhysicsError, Placed, Shape, State, Surface, SurfaceLaws, TriangleMesh, Until,
 };
 use crate::plugin::rapier::math::{Pose, Vector};
 use crate::plugin::rapier::prelude::*;
@@ -175,6 +176,28 @@ fn only_tools_cut_and_only_near_a_surface() {
     let dynamic = rig.ball(Vector3::z(), Vector3::zeros());
     let refused = rig.wear.add_tool(dynamic, &rig.world.bodies);
     assert_eq!(refused, Err(WearError::NotKinematic { body: dynamic }));
+}
+
+/// Fails for a body that two of them lead.
+#[test]
+fn a_body_is_driven_or_a_tool() {
+    let mut rig = Rig::new(Vector3::zeros(), 1.0 / 60.0);
+    let at = Vector3::z() * (RADIUS + 1e-3);
+    let body = tool(&mut rig, Led::ByPosition, at, Vector3::zeros());
+    let solution = DriveSolution::Dynamic;
+    let (load, speed) = (100.0, 0.2);
+    let drive = Drive { indent_to: load, load, speed, distance: 4e-3, mass: 0.05, solution };
+    let driven = |rig: &mut Rig| {
+        let ball = rig::body(Vector3::zeros());
+        rig.wear.drive(rig.plate, body, ball, drive, &rig.world.bodies)
+    };
+    let already = |led| Err(WearError::LedAlready { body, led });
+    assert_eq!(driven(&mut rig), already(plugin::Led::Tool));
+    rig.wear.remove_tool(body);
+    assert_eq!(driven(&mut rig), Ok(()));
+    let refused = rig.wear.add_tool(body, &rig.world.bodies);
+    assert_eq!(refused, already(plugin::Led::Driven));
+    assert!(rig.wear.tool_load(body).is_none());
 }
 
 /// Fails for a tool that goes on when it has stopped, that loses its groove meanwhile, or that is lost
