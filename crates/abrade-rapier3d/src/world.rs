@@ -100,8 +100,10 @@ pub(crate) struct Current {
     /// Dynamic bodies whose surfaces have been struck, which were carried with what struck them,
     /// and boxes around wherever they may have got.
     pub carried: Vec<(RigidBodyHandle, Extent)>,
-    /// Surfaces whose contacts wear by their impulses, and why.
+    /// Surfaces whose contacts wear by their impulses, and why; the bodies that were left to Rapier
+    /// for it, in order.
     pub crowded: Vec<(SurfaceId, Refusal)>,
+    pub among: Vec<(u32, u32)>,
 }
 
 impl WearWorld {

@@ -132,7 +132,12 @@ impl WearWorld {
         near: impl IntoIterator<Item = SurfaceId>,
         reason: Refusal,
     ) {
-        *self.reasons.entry((Resolver::Collision, reason.name().into())).or_default() += 1;
+        // Several tools may be at the same workpiece.
+        let (among, key) = (&mut self.current.among, body.into_raw_parts());
+        if let Err(at) = among.binary_search(&key) {
+            among.insert(at, key);
+            *self.reasons.entry((Resolver::Collision, reason.name().into())).or_default() += 1;
+        }
         let tracked = Tracked::slot(&mut self.bodies, body);
         tracked.taken_by_collision(reason, &mut self.surfaces, &mut self.closed, &mut self.events);
         self.current.crowded.extend(near.into_iter().map(|surface| (surface, reason)));

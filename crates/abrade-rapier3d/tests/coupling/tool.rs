@@ -401,13 +401,34 @@ fn a_tool_pushes_a_free_workpiece_and_wears_it() {
     }
 }
 
-/// Fails for a workpiece that is driven through what it lies on, or that nobody takes care of.
-#[test]
-fn a_workpiece_that_lies_on_something_is_left_to_collision() {
+/// A dynamic workpiece on a floor.
+fn lying() -> (Rig, RigidBodyHandle, SurfaceId) {
     let mut rig = empty(1.0 / 240.0);
     let (body, id) = workpiece(&mut rig, RigidBodyBuilder::dynamic());
     let floor = ColliderBuilder::cuboid(n(0.1), n(0.1), n(0.01));
     rig.world.colliders.insert(floor.translation(Vector::Z * n(-EDGE - 0.01)));
+    (rig, body, id)
+}
+
+/// Fails for a workpiece whose step is counted once for every tool at it.
+#[test]
+fn a_workpiece_between_two_tools_is_left_to_collision_once_a_step() {
+    let (mut rig, ..) = lying();
+    for x in [-5e-3, 5e-3] {
+        let at = Vector3::new(x, 0.5e-3, RADIUS + 0.1e-3);
+        tool(&mut rig, Led::ByVelocity, at, Vector3::new(0.0, 0.0, -0.3));
+    }
+    for step in 1..=2 {
+        rig.step();
+        let reasons = rig.wear.reasons().filter(|(by, ..)| *by == Resolver::Collision);
+        assert_eq!(reasons.map(|(.., count)| count).sum::<u64>(), step);
+    }
+}
+
+/// Fails for a workpiece that is driven through what it lies on, or that nobody takes care of.
+#[test]
+fn a_workpiece_that_lies_on_something_is_left_to_collision() {
+    let (mut rig, body, id) = lying();
     let at = Vector3::new(1e-3, 0.5e-3, RADIUS + 0.1e-3);
     let tool = tool(&mut rig, Led::ByVelocity, at, Vector3::new(0.0, 0.0, -0.3));
     let (mut handed, mut impulse) = (false, 0.0f64);
