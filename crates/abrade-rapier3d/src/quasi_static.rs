@@ -108,7 +108,7 @@ impl Pressing {
             duration: dt,
             increment: pitch / SAMPLES,
             limit: LIMIT,
-            reach: f64::INFINITY,
+            reach: None,
         };
         let advance = self.pressed.advance(&mut self.body, &mut placed, end, &hold, &mut relay)?;
         self.load = if way < pitch { self.load.max(load) } else { load };

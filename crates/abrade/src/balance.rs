@@ -30,6 +30,8 @@ pub(crate) struct Search<F> {
     /// Excess [N] at a sinking [m].
     excess: F,
     load: f64,
+    /// Excess at what was asked last [N].
+    over: f64,
     /// Sinkings between which the balance lies.
     low: Option<Asked>,
     high: Option<Asked>,
@@ -38,23 +40,40 @@ pub(crate) struct Search<F> {
 impl<F: FnMut(f64) -> f64> Search<F> {
     /// A search for the balance of `load` [N].
     pub(crate) fn new(load: f64, excess: F) -> Self {
-        Self { excess, load, low: None, high: None }
+        Self { excess, load, over: f64::NAN, low: None, high: None }
     }
 
     /// The balance, first by secants from the `last` one, then within a bracket that begins at
     /// `scale` [m] to either side and ends before `limit` [m]. What was asked last is what is found.
+    /// Where a `reach` [m] bounds the sinking, a load that is carried farther down, or only by a force
+    /// that jumps past it, is not reached.
     pub(crate) fn find(
         mut self,
         last: Option<Balance>,
         scale: f64,
         limit: f64,
+        reach: Option<f64>,
     ) -> Result<Balance, PhysicsError> {
-        if let Some(found) = last.and_then(|last| self.follow(last, scale)) {
-            return Ok(found);
+        let limit = reach.map_or(limit, |reach| reach.min(limit));
+        let found = match last.and_then(|last| self.follow(last, scale)) {
+            Some(found) => found,
+            None => {
+                let low = self.low.map_or_else(|| self.enclose(-scale, limit), Ok)?;
+                let high = self.high.map_or_else(|| self.enclose(scale, limit), Ok)?;
+                self.between(low, high)
+            }
+        };
+        let (load, depth) = (self.load, found.sink);
+        match reach.is_some_and(|reach| self.over.abs() >= load || depth > reach) {
+            true => Err(PhysicsError::LoadNotReached { load, depth }),
+            false => Ok(found),
         }
-        let low = self.low.map_or_else(|| self.enclose(-scale, limit), Ok)?;
-        let high = self.high.map_or_else(|| self.enclose(scale, limit), Ok)?;
-        Ok(self.between(low, high))
+    }
+
+    /// The excess at a sinking [m].
+    fn ask(&mut self, sink: f64) -> f64 {
+        self.over = (self.excess)(sink);
+        self.over
     }
 
     /// Secants, as long as they stay between the ends that they find and within `scale` [m], beyond
@@ -68,7 +87,7 @@ impl<F: FnMut(f64) -> f64> Search<F> {
             if !(low < sink && sink < high) {
                 return None;
             }
-            let over = (self.excess)(sink);
+            let over = self.ask(sink);
             if let Some([s, o]) = before {
                 let slope = (over - o) / (sink - s);
                 stiffness = if slope > 0.0 { slope } else { stiffness };
@@ -94,7 +113,7 @@ impl<F: FnMut(f64) -> f64> Search<F> {
     /// The end of a bracket on the side of `sink` [m].
     fn enclose(&mut self, mut sink: f64, limit: f64) -> Result<Asked, PhysicsError> {
         loop {
-            let over = (self.excess)(sink);
+            let over = self.ask(sink);
             if over * sink.signum() >= 0.0 {
                 return Ok([sink, over]);
             }
@@ -106,14 +125,14 @@ impl<F: FnMut(f64) -> f64> Search<F> {
     }
 
     /// The balance within a bracket: regula falsi, and every fourth time bisection.
-    pub(crate) fn between(mut self, mut low: Asked, mut high: Asked) -> Balance {
+    pub(crate) fn between(&mut self, mut low: Asked, mut high: Asked) -> Balance {
         let mut count = 0;
         loop {
             let stiffness = (high[1] - low[1]) / (high[0] - low[0]);
             let share = low[1] / (low[1] - high[1]);
             let bisects = count % 4 == 3 || count == STEPS || !share.is_finite();
             let sink = low[0] + if bisects { 0.5 } else { share } * (high[0] - low[0]);
-            let over = (self.excess)(sink);
+            let over = self.ask(sink);
             if self.is_balanced(over) || sink == low[0] || sink == high[0] || count == STEPS {
                 return Balance { sink, stiffness };
             }

@@ -235,8 +235,8 @@ impl Driven {
         let travel = duration * self.drive.speed;
         let count = (travel / increment).ceil().max(1.0);
         let along = ahead * (travel / count);
-        let (turn, load, reach) = (Vector3::zeros(), self.drive.load, f64::INFINITY);
-        let press = Press { along, turn, down, load, reach };
+        let (turn, load) = (Vector3::zeros(), self.drive.load);
+        let press = Press { along, turn, down, load, reach: None };
         let creep = Creep { duration, count, scale: increment };
         self.integrator.creep(body, placed, &press, &creep, observer)
     }
@@ -253,7 +253,7 @@ impl Driven {
     ) -> (f64, Trial) {
         let mut evaluations = 0;
         let mut asked = None;
-        let search = Search::new(target, |sink| {
+        let mut search = Search::new(target, |sink| {
             let trial = self.push(body, placed, down * sink);
             evaluations += trial.evaluations;
             let over = -trial.force().dot(&down) - target;

@@ -217,12 +217,12 @@ impl Encounter {
         self.integrator.touched
     }
 
-    /// Largest overlap of a node with `body` [m]; zero on surfaces that it was not made with.
-    pub fn overlap(&mut self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
-        if self.integrator.fits(surfaces).is_err() {
-            return 0.0;
+    /// Moves `body` back, against the unit vector `down`, until it is clear of the surfaces that an
+    /// engine has left it in; stays where it is on surfaces that it was not made with.
+    pub fn lift(&mut self, body: &mut Body, surfaces: &[Placed<'_>], down: &Vector3<f64>) {
+        if self.integrator.fits(surfaces).is_ok() {
+            self.integrator.lift(body, surfaces, down);
         }
-        self.integrator.overlaps(body, surfaces).fold(0.0, f64::max)
     }
 
     /// Period of the body on the springs that it touches [s]; zero before any contact.

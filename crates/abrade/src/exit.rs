@@ -1,6 +1,8 @@
 //! Where a contact begins and ends: clear at the start, over once the body is out, given up when
 //! the body is below the surface.
 
+use nalgebra::Vector3;
+
 use crate::body::{Body, State};
 use crate::contact::Contact;
 use crate::encounter::Placed;
@@ -12,6 +14,8 @@ use crate::surface::Surface;
 
 /// Overlap at the first step, in bounding radii, above which a body counts as started inside.
 const INSIDE: f64 = 1e-3;
+/// Increments by which a body that lies in a surface is lifted until it is clear of it.
+const LIFTS: usize = 60;
 /// Way of a body between two looks at whether it is clear of a mesh, in pitches.
 const RISE_PITCH: f64 = 0.25;
 /// Share of the kinetic energy before contact below which a body counts as stopped.
@@ -44,6 +48,18 @@ impl Integrator {
         match depth > INSIDE * body.shape.bounding_radius() {
             true => Err(PhysicsError::StartsInside { depth }),
             false => Ok(()),
+        }
+    }
+
+    /// Lifts a body that an engine has left inside the surfaces, against `down`, until it is clear of
+    /// them.
+    pub(crate) fn lift(&mut self, body: &mut Body, surfaces: &[Placed<'_>], down: &Vector3<f64>) {
+        for _ in 0..LIFTS {
+            let depth = self.overlaps(body, surfaces).fold(0.0, f64::max);
+            if depth == 0.0 {
+                break;
+            }
+            body.state.position -= down * depth;
         }
     }
 

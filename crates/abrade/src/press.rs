@@ -16,9 +16,6 @@ use crate::ledger::Ledger;
 use crate::surface::Surface;
 use crate::trial::{Course, Trial};
 
-/// Increments by which a body that lies in a surface is lifted until it is clear of it.
-const LIFTS: usize = 60;
-
 /// An increment of a pressed body.
 pub(crate) struct Press {
     /// Displacement [m] and turn [rad], but for the sinking.
@@ -28,8 +25,8 @@ pub(crate) struct Press {
     pub down: Vector3<f64>,
     /// Load [N].
     pub load: f64,
-    /// Farthest sinking at which the load is sought [m].
-    pub reach: f64,
+    /// Farthest sinking at which the load is sought, if it is bound [m].
+    pub reach: Option<f64>,
 }
 
 /// A way in equal increments.
@@ -54,24 +51,18 @@ impl Integrator {
         press: &Press,
         scale: f64,
     ) -> Result<Trial, PhysicsError> {
-        let limit = press.reach.min(2.0 * body.shape.bounding_radius() + scale);
+        let limit = 2.0 * body.shape.bounding_radius() + scale;
         let last = self.balance;
         let mut evaluations = 0;
         let mut asked = None;
-        let mut excess = 0.0;
         let search = Search::new(press.load, |sink| {
             let trial = self.push(body, placed, press, sink);
             evaluations += trial.evaluations;
             let over = -trial.force().dot(&press.down) - press.load;
             asked = Some(trial);
-            excess = over;
             over
         });
-        let found = search.find(last, scale, limit)?;
-        if press.reach.is_finite() && (excess.abs() >= press.load || found.sink > press.reach) {
-            let (load, depth) = (press.load, found.sink);
-            return Err(PhysicsError::LoadNotReached { load, depth });
-        }
+        let found = search.find(last, scale, limit, press.reach)?;
         self.balance = Some(found);
         let mut trial = asked.expect("a search asks");
         trial.evaluations = evaluations;
@@ -150,9 +141,9 @@ pub struct Hold {
     pub increment: f64,
     /// Most balances of a move; a longer one is sampled more coarsely.
     pub limit: u64,
-    /// Farthest sinking of an increment [m]. Where it is finite, a load that is not carried within
-    /// it, or only by a force that jumps past it, is not reached.
-    pub reach: f64,
+    /// Farthest sinking of an increment [m], if it is bound: a load that is not carried within it, or
+    /// only by a force that jumps past it, is then not reached.
+    pub reach: Option<f64>,
 }
 
 impl Pressed {
@@ -190,7 +181,7 @@ impl Pressed {
             return Ok(Advance { time: hold.duration, ..Advance::default() });
         };
         if !self.integrator.touched {
-            self.lift(body, placed, down);
+            self.integrator.lift(body, placed, &down);
         }
         let way = end.position - body.state.position;
         let way = way - down * down.dot(&way);
@@ -201,17 +192,6 @@ impl Pressed {
         let press = Press { along: way / count, turn: turn / count, down, load, reach };
         let creep = Creep { duration: hold.duration, count, scale: hold.increment };
         self.integrator.creep(body, placed, &press, &creep, observer)
-    }
-
-    /// Lifts a body that an engine left inside the surfaces until it is clear of them.
-    fn lift(&mut self, body: &mut Body, placed: &[Placed<'_>], down: Vector3<f64>) {
-        for _ in 0..LIFTS {
-            let deepest = self.integrator.overlaps(body, placed).fold(0.0, f64::max);
-            if deepest == 0.0 {
-                break;
-            }
-            body.state.position -= down * deepest;
-        }
     }
 
     /// Ends the contact: what its springs hold is lost, and overhangs break off.
@@ -277,7 +257,7 @@ mod tests {
             turn: Vector3::zeros(),
             down: -Vector3::z(),
             load,
-            reach: f64::INFINITY,
+            reach: None,
         };
         let (mut trials, mut least) = (0.0, f64::INFINITY);
         for i in 0..=count {

@@ -10,6 +10,9 @@ use crate::held::Before;
 use crate::view::WorldView;
 use crate::{derive, scalar, shadow};
 
+/// Clearance at the start of a contact in the core, in pitches.
+const CLEAR: f64 = 0.02;
+
 /// The contact of a pair in a step.
 pub(crate) struct Blow {
     /// Impulse on the second collider along the normal [N s], and the energy of a blow [J].
@@ -23,9 +26,6 @@ pub(crate) struct Blow {
     pub restitution: f64,
     /// Velocity of the second collider over the first before the step, along the contact [m/s].
     pub sliding: Vector3<f64>,
-    /// Velocity of the centre of each over the material of the other before the step, along the
-    /// contact; zero for what no dynamic body is [m/s].
-    pub drifts: [Vector3<f64>; 2],
     /// Speed at which they approached each other before the step, and still do after it [m/s].
     pub approach: f64,
     pub closing: f64,
@@ -57,32 +57,22 @@ impl Blow {
     /// The contact of `pair` in the last step; None for one without rigid contacts or whose colliders
     /// are gone.
     pub fn of(pair: &ContactPair, world: &WorldView<'_>, before: &Before) -> Option<Self> {
-        let handles = [pair.collider1, pair.collider2];
-        let [Some(first), Some(second)] = handles.map(|handle| world.colliders.get(handle)) else {
-            return None;
-        };
+        let [first, second] = colliders(pair, world)?;
         let Mean { impulse, normal, place, overlap } = Mean::of(pair, first)?;
-        let side = |collider: &Collider| Side::of(collider, world, before);
-        let sides = [side(first), side(second)];
+        let sides = [first, second].map(|collider| Side::of(collider, world, before));
         let ease: f64 = sides.iter().map(|side| side.ease(&place, &normal)).sum();
         let apart = |at: usize| {
             let [a, b] = [&sides[0], &sides[1]].map(|side| side.velocity(&place, at));
             b - a
         };
         let (came, left) = (apart(0), apart(1));
-        let along = |v: Vector3<f64>| v - normal * normal.dot(&v);
-        let drift = |own: usize| match sides[own].body {
-            Some(_) => along(sides[own].drift(&sides[1 - own])),
-            None => Vector3::zeros(),
-        };
         Some(Self {
             impulse,
             energy: 0.0,
             normal,
             mass: 1.0 / ease,
             restitution: restitution(first, second),
-            sliding: along(came),
-            drifts: [drift(0), drift(1)],
+            sliding: came - normal * normal.dot(&came),
             approach: -came.dot(&normal),
             closing: -left.dot(&normal),
             place,
@@ -91,6 +81,36 @@ impl Blow {
         })
         .filter(|blow| blow.mass.is_finite() && blow.mass > 0.0)
     }
+
+    /// Velocity of the centre of one of the pair, the second where the `first_stands`, over the material
+    /// of the other before the step, along the contact; zero for what no dynamic body is [m/s].
+    pub fn drift(
+        &self,
+        pair: &ContactPair,
+        first_stands: bool,
+        world: &WorldView<'_>,
+        before: &Before,
+    ) -> Vector3<f64> {
+        let Some([first, second]) = colliders(pair, world) else { return Vector3::zeros() };
+        let [stands, moves] = if first_stands { [first, second] } else { [second, first] }
+            .map(|collider| Side::of(collider, world, before));
+        if moves.body.is_none() {
+            return Vector3::zeros();
+        }
+        let drift = moves.drift(&stands);
+        drift - self.normal * self.normal.dot(&drift)
+    }
+
+    /// How far back from where Rapier has left it one of the pair is clear of a surface of this `pitch`
+    /// [m].
+    pub fn back(&self, pitch: f64) -> f64 {
+        self.overlap.max(0.0) + CLEAR * pitch
+    }
+}
+
+/// The two colliders of a pair; None where one is gone.
+fn colliders<'a>(pair: &ContactPair, world: &'a WorldView<'_>) -> Option<[&'a Collider; 2]> {
+    Some([world.colliders.get(pair.collider1)?, world.colliders.get(pair.collider2)?])
 }
 
 /// Restitution of Rapier's contact of two colliders.

@@ -51,8 +51,8 @@ pub(crate) struct Lying {
 /// What a pair bears in a step.
 pub(crate) struct Bearing<'a> {
     pub pair: &'a ContactPair,
-    /// The places of their surfaces among all.
-    pub own: [Option<usize>; 2],
+    /// The surface of the one that stands.
+    pub surface: SurfaceId,
     pub blow: &'a Blow,
     /// Impulse of what lies [N s].
     pub impulse: f64,
@@ -141,7 +141,7 @@ impl WearWorld {
         world: &WorldView<'_>,
     ) {
         let (dt, blow) = (self.current.dt, bearing.blow);
-        let pitch = self.finest(bearing.own);
+        let pitch = self.surfaces[bearing.surface.0].surface.pitch();
         let mut way = passage.way(&lying.place, blow);
         if std::mem::take(&mut lying.is_firm) && way * SAMPLES >= pitch {
             // What it went under no load is no way.
@@ -173,27 +173,22 @@ impl WearWorld {
         stretch: &Stretch<'_>,
         world: &WorldView<'_>,
     ) -> Volumes {
-        let Bearing { pair, own, blow, body, reason, .. } = *bearing;
-        let Some(surface) = own.into_iter().flatten().next().map(SurfaceId) else {
-            return Volumes::new();
-        };
+        let Bearing { pair, surface, blow, body, is_first, reason, .. } = *bearing;
         if lying.rub.as_ref().is_some_and(|rub| !rub.holds(&lying.place)) {
             self.let_go(lying.rub.take());
         }
         if lying.rub.is_none() {
-            let two = Two::of(pair, own, blow, &self.surfaces, world);
-            let collider = match two.as_ref().is_some_and(|two| two.roles.first_stands) {
-                true => pair.collider2,
-                false if own[0].is_some() && two.is_none() => pair.collider2,
-                false => pair.collider1,
+            let (own, collider) = match is_first {
+                true => ([None, Some(surface.0)], pair.collider1),
+                false => ([Some(surface.0), None], pair.collider2),
             };
+            let two = Two::of(pair, own, blow, &self.surfaces, world);
             let (Some(two), Some(other)) = (two, world.colliders.get(collider)) else {
                 self.refuse(body, surface, Refusal::Shape { collider });
                 return Volumes::new();
             };
             let settings = self.settings.encounter();
-            let surfaces = &mut self.surfaces;
-            match Rub::new(&two, other, stretch, blow, surfaces, settings) {
+            match Rub::new(&two, other, stretch, blow, &self.surfaces, settings) {
                 Ok(rub) => lying.rub = Some(rub),
                 Err(error) => {
                     self.give_up(body, surface, error);
@@ -229,17 +224,10 @@ impl WearWorld {
         Contact::end(&mut contact, body, &mut self.events);
     }
 
-    /// True when no node of the two can flow.
+    /// True when no node can flow.
     fn is_firm(&self, bearing: &Bearing<'_>) -> bool {
         let load = bearing.impulse / self.current.dt;
-        let firm = |at: usize| quasi_static::holds(&self.surfaces[at].surface, load);
-        bearing.own.into_iter().flatten().all(firm)
-    }
-
-    /// The finer pitch of two surfaces [m].
-    fn finest(&self, own: [Option<usize>; 2]) -> f64 {
-        let pitches = own.into_iter().flatten().map(|at| self.surfaces[at].surface.pitch());
-        pitches.fold(f64::INFINITY, f64::min)
+        quasi_static::holds(&self.surfaces[bearing.surface.0].surface, load)
     }
 }
 
@@ -248,7 +236,7 @@ impl Lying {
     /// The surfaces that it names.
     pub fn surfaces(&self) -> impl Iterator<Item = SurfaceId> {
         let worn = self.contact.iter().flat_map(Contact::surfaces);
-        worn.chain(self.rub.iter().flat_map(Rub::surfaces))
+        worn.chain(self.rub.iter().map(Rub::surface))
     }
 
     /// True for places, loads and times that can be, with surfaces that are there.

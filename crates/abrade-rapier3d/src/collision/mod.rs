@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 
 use abrade::{Ledger, PhysicsError};
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
-use rapier::geometry::{ColliderHandle, ContactPair};
+use rapier::geometry::{Collider, ColliderHandle, ContactPair};
 
 use crate::collision::blow::Blow;
 use crate::collision::clusters::Clusters;
@@ -244,15 +244,18 @@ impl WearWorld {
         reason: Refusal,
         world: &WorldView<'_>,
     ) {
-        let own = self.own(pair);
         let Some((body, is_first)) = moving(pair, world).filter(|_| impulse > 0.0) else { return };
-        // A free body that wears would have to sink to what carries it, and Rapier does not know.
-        let is_free = own.into_iter().flatten().any(|at| {
-            let parent = world.colliders.get(self.surfaces[at].proxy).and_then(|c| c.parent());
-            parent.and_then(|body| world.bodies.get(body)).is_some_and(RigidBody::is_dynamic)
-        });
-        if !is_free && !self.has_plate(own) {
-            let bearing = Bearing { pair, own, blow, impulse, body, is_first, reason };
+        // A free body that wears would have to sink to what carries it, and Rapier does not know: of
+        // two dynamic bodies one is such a body.
+        let stands = if is_first { pair.collider2 } else { pair.collider1 };
+        if is_dynamic(stands, world) {
+            return;
+        }
+        let own = self.own(pair);
+        let [lies, stands] = if is_first { own } else { [own[1], own[0]] };
+        if let (None, Some(at), false) = (lies, stands, self.has_plate(own)) {
+            let bearing =
+                Bearing { pair, surface: SurfaceId(at), blow, impulse, body, is_first, reason };
             self.press_lying(&bearing, kept, world);
         }
     }
@@ -269,7 +272,8 @@ impl WearWorld {
             let collider = if own[0].is_some() { pair.collider2 } else { pair.collider1 };
             return self.refuse(body, at, Refusal::Shape { collider });
         };
-        let striker = Striker::new(two, blow, &self.surfaces, self.current.dt);
+        let drift = blow.drift(pair, two.roles.first_stands, world, &self.before);
+        let striker = Striker::new(two, blow, &drift, &self.surfaces, self.current.dt);
         let settings = self.settings.encounter();
         let (outcome, done) = striker.run(&mut self.surfaces, blow, settings);
         let Outcome { ledger, steps, node_evaluations, contact_time, worn } = outcome;
@@ -311,6 +315,12 @@ fn key(pair: &ContactPair) -> PairKey {
     let mut key = [pair.collider1, pair.collider2].map(ColliderHandle::into_raw_parts);
     key.sort_unstable();
     key
+}
+
+/// True for a collider of a dynamic body.
+fn is_dynamic(collider: ColliderHandle, world: &WorldView<'_>) -> bool {
+    let parent = world.colliders.get(collider).and_then(Collider::parent);
+    parent.and_then(|body| world.bodies.get(body)).is_some_and(RigidBody::is_dynamic)
 }
 
 /// The dynamic body of a pair that is awake, the second if both are, and whether it is the first:

@@ -1,7 +1,8 @@
 //! One of two that is pressed against the surface that stands, from step to step.
 
-use abrade::{Advance, Body, EncounterSettings, Hold, Inertia, Ledger, PhysicsError};
-use abrade::{Pressed, State};
+use abrade::{
+    Advance, Body, EncounterSettings, Hold, Inertia, Ledger, PhysicsError, Placed, Pressed, State,
+};
 use nalgebra::{Isometry3, Matrix3, Vector3};
 use rapier::geometry::Collider;
 use rapier::parry::shape::TypedShape;
@@ -9,7 +10,7 @@ use rapier::parry::shape::TypedShape;
 use crate::collision::blow::Blow;
 use crate::collision::passage::Passage;
 use crate::collision::two::{Roles, Two};
-use crate::micro::Volumes;
+use crate::micro::{self, Volumes};
 use crate::quasi_static::{LIMIT, SAMPLES};
 use crate::surface::{SurfaceId, WornCollider};
 
@@ -17,8 +18,6 @@ use crate::surface::{SurfaceId, WornCollider};
 const REACH: f64 = 2.0;
 /// Most angle between two balances of the load [rad].
 const ANGLE: f64 = 0.05;
-/// Clearance at the start, in pitches.
-const CLEAR: f64 = 0.02;
 /// Pitches of its way for which a contact should not be broken.
 const YOUNG: f64 = 50.0;
 /// Radii of the surface that stands by which it stays on the part of a wall that is known.
@@ -27,7 +26,9 @@ const PART: f64 = 0.5;
 /// A contact of two that is pressed.
 #[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Rub {
-    roles: Roles,
+    /// The surface that stands, and whether it is that of the first collider of the pair.
+    stands: SurfaceId,
+    first_stands: bool,
     pressed: Pressed,
     /// In the frame of the surface that stands, at the height at which the load is balanced.
     body: Body,
@@ -63,26 +64,25 @@ impl Rub {
         other: &Collider,
         stretch: &Stretch<'_>,
         blow: &Blow,
-        surfaces: &mut [WornCollider],
+        surfaces: &[WornCollider],
         settings: EncounterSettings,
     ) -> Result<Self, PhysicsError> {
         let Stretch { passage, start, .. } = stretch;
-        let (roles, first) = (two.roles, two.roles.first_stands);
-        let worn = &surfaces[roles.stands.0];
-        let back = blow.overlap.max(0.0) + CLEAR * worn.surface.pitch();
+        let Roles { stands, first_stands, .. } = two.roles;
+        let worn = &surfaces[stands.0];
+        let back = blow.back(worn.surface.pitch());
         let shape = other.shape().as_typed_shape();
         let is_cut = matches!(shape, TypedShape::HalfSpace(_) | TypedShape::Cuboid(_));
         let reach = if is_cut { PART * worn.bounds.half().norm() } else { f64::INFINITY };
-        let offset = passage.frame(first, 1.0).inverse() * two.frame;
-        let local = seen(&passage.at(1.0), first).inverse() * offset * two.body.state.pose();
+        let offset = passage.frame(first_stands, 1.0).inverse() * two.frame;
+        let local = seen(&passage.at(1.0), first_stands).inverse() * offset * two.body.state.pose();
         // Without effect on the balance of a load.
         let inertia = Inertia { mass: blow.mass, tensor: Matrix3::identity() };
         let body = Body { inertia, rotation_locked: false, ..two.body.clone() };
-        let placed = roles.place(surfaces);
-        let surface = placed.iter().flatten().map(|placed| &*placed.surface);
-        let pressed = Pressed::new(&body, surface, settings)?;
-        let began = seen(start, first).inverse();
-        let mut rub = Self { roles, pressed, body, local, offset, began, reach, way: 0.0 };
+        let pressed = Pressed::new(&body, [&*worn.surface], settings)?;
+        let (began, way) = (seen(start, first_stands).inverse(), 0.0);
+        let mut rub =
+            Self { stands, first_stands, pressed, body, local, offset, began, reach, way };
         rub.body.state = rub.state(start);
         rub.body.state.position -= rub.down(stretch, 0.0) * back;
         Ok(rub)
@@ -91,7 +91,7 @@ impl Rub {
     /// True while what it knows of a wall reaches to where the second collider is at `pose` in the
     /// frame of the first.
     pub fn holds(&self, pose: &Isometry3<f64>) -> bool {
-        let place = seen(pose, self.roles.first_stands).inverse().translation.vector;
+        let place = seen(pose, self.first_stands).inverse().translation.vector;
         (place - self.began.translation.vector).norm() < self.reach
     }
 
@@ -104,14 +104,14 @@ impl Rub {
     ) -> (Volumes, Result<(), PhysicsError>) {
         let Stretch { passage, start, way, load, dt, .. } = *stretch;
         self.way += way;
-        let pitch = self.pitch(surfaces);
+        let mut placed = self.place(surfaces);
+        let surface = &placed[0].surface;
+        let pitch = surface.pitch();
         let angle = start.rotation.angle_to(&passage.at(1.0).rotation);
         let parts = (way * SAMPLES / pitch).max(angle / ANGLE).ceil().clamp(1.0, LIMIT as f64);
         let increment = pitch / SAMPLES;
-        let Some(mut placed) = self.roles.place(surfaces) else { return (Volumes::new(), Ok(())) };
         // Farther down, another side of the surface would carry the load.
-        let deepest = placed.iter().map(|placed| placed.surface.deepest());
-        let reach = REACH * pitch + deepest.sum::<f64>();
+        let reach = Some(REACH * pitch + surface.deepest());
         let mut result = Ok(());
         for part in 1..=parts as u32 {
             let share = f64::from(part) / parts;
@@ -129,15 +129,20 @@ impl Rub {
                 }
             }
         }
-        (self.roles.gained(placed), result)
+        let [Placed { surface, .. }] = placed;
+        (vec![(self.stands, surface.settle().displaced())], result)
+    }
+
+    /// The surface, to be worn.
+    fn place<'a>(&self, surfaces: &'a mut [WornCollider]) -> [Placed<'a>; 1] {
+        micro::place(surfaces, self.stands, (Isometry3::identity(), None))
     }
 
     /// Ends the contact: overhangs break off. Returns its ledger.
     pub fn end(mut self, surfaces: &mut [WornCollider]) -> Ledger {
-        if let Some(mut placed) = self.roles.place(surfaces) {
-            self.pressed.end(&mut placed);
-            self.roles.gained(placed);
-        }
+        let mut placed = self.place(surfaces);
+        self.pressed.end(&mut placed);
+        placed[0].surface.settle();
         *self.pressed.ledger()
     }
 
@@ -147,31 +152,24 @@ impl Rub {
 
     /// True for a contact with `surface`.
     pub fn is_on(&self, surface: SurfaceId) -> bool {
-        let skin = self.roles.skin.map(|(id, _)| id);
-        self.roles.stands == surface || skin == Some(surface)
+        self.stands == surface
     }
 
     /// True for one that has not gone far yet, and would miss what was broken off.
     pub fn is_young(&self, surfaces: &[WornCollider]) -> bool {
-        self.way < YOUNG * self.pitch(surfaces)
-    }
-
-    /// The finer pitch of its surfaces [m].
-    fn pitch(&self, surfaces: &[WornCollider]) -> f64 {
-        let pitches = self.roles.surfaces().into_iter().map(|id| surfaces[id.0].surface.pitch());
-        pitches.fold(f64::INFINITY, f64::min)
+        self.way < YOUNG * surfaces[self.stands.0].surface.pitch()
     }
 
     /// State of the body, in the frame of the surface, where the second collider is at `pose` in the
     /// frame of the first.
     fn state(&self, pose: &Isometry3<f64>) -> State {
-        let seat = self.offset.inverse() * seen(pose, self.roles.first_stands) * self.local;
+        let seat = self.offset.inverse() * seen(pose, self.first_stands) * self.local;
         State { rotation: seat.rotation, ..State::at(seat.translation.vector.into()) }
     }
 
     /// Unit normal into the surface after a share of the step.
     fn down(&self, stretch: &Stretch<'_>, share: f64) -> Vector3<f64> {
-        let first = self.roles.first_stands;
+        let first = self.first_stands;
         let into = if first { -stretch.normal } else { stretch.normal };
         (stretch.passage.frame(first, share) * self.offset).inverse_transform_vector(&into)
     }
@@ -184,19 +182,18 @@ fn seen(pose: &Isometry3<f64>, first_stands: bool) -> Isometry3<f64> {
 
 #[cfg(feature = "serde-serialize")]
 impl Rub {
-    /// The surfaces of the two.
-    pub fn surfaces(&self) -> Vec<SurfaceId> {
-        self.roles.surfaces()
+    /// The surface that stands.
+    pub fn surface(&self) -> SurfaceId {
+        self.stands
     }
 
     /// True for frames that Rapier's numbers can say, of surfaces that it was made with.
     pub fn is_sound(&self, surfaces: &[WornCollider]) -> bool {
         use crate::snapshot::{is_frame, is_state};
-        let skin = self.roles.skin.as_ref().is_none_or(|(_, pose)| is_frame(pose));
         let frames = [&self.local, &self.offset, &self.began].into_iter().all(is_frame);
         let lengths = self.way >= 0.0 && self.reach > 0.0;
-        let stands = &*surfaces[self.roles.stands.0].surface;
-        skin && frames
+        let stands = &*surfaces[self.stands.0].surface;
+        frames
             && lengths
             && is_state(&self.body.state, &Isometry3::identity())
             && self.pressed.is_made_for([stands])

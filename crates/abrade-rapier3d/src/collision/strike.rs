@@ -20,10 +20,6 @@ const MISS: f64 = 1.0;
 const LOOKS: u32 = 400;
 /// Steps after which a collision is given up: a striker that is wedged in.
 const STEPS: u64 = 2000;
-/// Steps back of a striker that Rapier has left inside what it strikes.
-const LIFTS: usize = 60;
-/// Clearance of a striker at its start, in pitches.
-const CLEAR: f64 = 0.02;
 
 /// Two of which one flies at the surface that stands.
 pub(crate) struct Striker {
@@ -44,19 +40,23 @@ pub(crate) struct Outcome {
 }
 
 impl Striker {
-    /// The body of a blow, on its way back from where Rapier has left it after a step of `dt` [s]: above
-    /// where it was before the step, for which Rapier found the normal.
-    pub fn new(two: Two, blow: &Blow, surfaces: &[WornCollider], dt: f64) -> Self {
+    /// The body of a blow, on its way back from where Rapier has left it after a step of `dt` [s] in
+    /// which it had the `drift` [m/s], in the world: above where it was before the step, for which
+    /// Rapier found the normal.
+    pub fn new(
+        two: Two,
+        blow: &Blow,
+        drift: &Vector3<f64>,
+        surfaces: &[WornCollider],
+        dt: f64,
+    ) -> Self {
         let worn = &surfaces[two.roles.stands.0];
         let Body { shape, state, .. } = two.body.clone();
         let left = state.position;
-        let back = blow.overlap.max(0.0) + CLEAR * worn.surface.pitch();
-        let [sliding, drift] = match two.roles.first_stands {
-            true => [blow.sliding, blow.drifts[1]],
-            false => [-blow.sliding, blow.drifts[0]],
-        };
+        let back = blow.back(worn.surface.pitch());
+        let sliding = if two.roles.first_stands { blow.sliding } else { -blow.sliding };
         let sliding = two.frame.inverse_transform_vector(&sliding);
-        let went = two.frame.inverse_transform_vector(&drift) * dt;
+        let went = two.frame.inverse_transform_vector(drift) * dt;
         let state = State {
             position: left - two.down * back - went,
             velocity: two.down * blow.speed() + sliding,
@@ -84,7 +84,7 @@ impl Striker {
             Ok(encounter) => encounter,
             Err(error) => return (outcome, Err(error)),
         };
-        lift(&mut encounter, &mut self.body, &self.two.down, &placed);
+        encounter.lift(&mut self.body, &placed, &self.two.down);
         let done = self.fly(&mut encounter, &mut placed, blow, settings.step_limit, &mut outcome);
         encounter.end(&mut placed);
         outcome.worn = self.two.roles.gained(placed);
@@ -131,15 +131,4 @@ impl Striker {
 fn sunk(placed: &Placed<'_>) -> f64 {
     let skin = placed.skin.as_ref().map_or(0.0, |skin| skin.surface.worn().max_depth);
     placed.surface.worn().max_depth + skin
-}
-
-/// Moves a striker back until it is clear of what it strikes.
-fn lift(encounter: &mut Encounter, body: &mut Body, down: &Vector3<f64>, placed: &[Placed<'_>]) {
-    for _ in 0..LIFTS {
-        let depth = encounter.overlap(body, placed);
-        if depth == 0.0 {
-            break;
-        }
-        body.state.position -= down * depth;
-    }
 }

@@ -13,7 +13,6 @@ use crate::wall;
 
 /// Whose surface stands, and what the other wears.
 #[derive(Clone, Copy)]
-#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Roles {
     pub stands: SurfaceId,
     /// True when it is that of the first collider of the pair.
