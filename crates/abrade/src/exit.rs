@@ -38,16 +38,23 @@ impl Integrator {
         times.fold(f64::INFINITY, f64::min)
     }
 
-    /// The body must not lie inside a surface before it has touched it.
+    /// The body must not lie inside a surface before it has touched it. Flight ends where the boxes of
+    /// both meet, up to round-off: a face that comes flat against a border holds its nodes there.
     pub(crate) fn start_clear(
         &mut self,
         body: &Body,
         surfaces: &[Placed<'_>],
     ) -> Result<(), PhysicsError> {
-        let depth = self.overlaps(body, surfaces).fold(0.0, f64::max);
-        match depth > INSIDE * body.shape.bounding_radius() {
-            true => Err(PhysicsError::StartsInside { depth }),
-            false => Ok(()),
+        let limit = INSIDE * body.shape.bounding_radius();
+        let meets = |placed: &Placed<'_>| {
+            let local = placed.sees(&body.state);
+            separation(placed.surface, body, &local, 0.0) <= -limit
+        };
+        let overlaps = self.overlaps(body, surfaces).zip(surfaces);
+        let inside = overlaps.filter(|(depth, placed)| *depth > limit && meets(placed));
+        match inside.map(|(depth, _)| depth).reduce(f64::max) {
+            Some(depth) => Err(PhysicsError::StartsInside { depth }),
+            None => Ok(()),
         }
     }
 

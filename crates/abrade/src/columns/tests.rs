@@ -18,7 +18,7 @@ const DEPTH: f64 = 4.3 * PITCH;
 /// Half the width of a tool at its foot, and its height [m].
 const FOOT: f64 = 1e-3;
 const HEIGHT: f64 = 1.5e-3;
-/// Turn of a tool about its height [rad]: no face comes on flat.
+/// Turn of a tool about its height [rad].
 const TURN: f64 = 0.05;
 const SPEED: f64 = 1.0;
 /// Length of a plate [m].
@@ -32,8 +32,9 @@ struct Led {
 }
 
 impl Led {
-    /// A tool with the half width `head` [m] at its upper end, before a border of the plate.
-    fn new(head: f64) -> Self {
+    /// A tool with the half width `head` [m] at its upper end, turned by `turn` [rad], before a border of
+    /// the plate.
+    fn new(head: f64, turn: f64) -> Self {
         let material = Material {
             hardness: 2e8,
             shear_ratio: 0.25,
@@ -50,7 +51,7 @@ impl Led {
         let corners = [square(FOOT, 0.0), square(head, HEIGHT)].concat();
         let (hull, ..) = Hull::solid(&corners, 8000.0).expect("a hull");
         let shape = Shape::hull(hull);
-        let rotation = UnitQuaternion::from_scaled_axis(Vector3::z() * TURN);
+        let rotation = UnitQuaternion::from_scaled_axis(Vector3::z() * turn);
         let z = -DEPTH - shape.lowest(&rotation, &Vector3::z());
         let from = Point3::new(-0.5 * LENGTH - 1.2 * FOOT, 0.013e-3, z);
         let state = State { rotation, velocity: Vector3::x() * SPEED, ..State::at(from) };
@@ -93,7 +94,7 @@ impl Led {
 /// when a tool comes back to them.
 #[test]
 fn a_groove_is_no_longer_listed_and_is_not_paid_for_again() {
-    let mut led = Led::new(FOOT);
+    let mut led = Led::new(FOOT, TURN);
     let parts: Vec<_> = (0..8).map(|_| led.go(3e-3)).collect();
     println!("{parts:?}");
     let listed = |part: usize| parts[part].0 as f64;
@@ -109,7 +110,7 @@ fn a_groove_is_no_longer_listed_and_is_not_paid_for_again() {
 /// contact ends.
 #[test]
 fn overhangs_stay_until_the_contact_ends() {
-    let mut led = Led::new(0.3 * FOOT);
+    let mut led = Led::new(0.3 * FOOT, TURN);
     led.go(24e-3);
     let places = [-10e-3, 0.0];
     let [least, floor] = led.depths(places);
@@ -119,4 +120,20 @@ fn overhangs_stay_until_the_contact_ends() {
     let [least, largest] = led.depths(places);
     println!("{:e}", 1.0 - least / largest);
     assert!(1.0 - least / largest < 1e-9 && largest == floor, "{least:e} and {largest:e} m");
+}
+
+/// Fails for a tool that is taken for one that starts inside where its flat front meets a border.
+#[test]
+fn a_flat_front_enters_by_a_border() {
+    for ahead in [1.2, 1.3, 1.7] {
+        let mut led = Led::new(FOOT, 0.0);
+        led.body.state.position.x = -0.5 * LENGTH - ahead * FOOT;
+        let (_, worn) = led.go((ahead - 1.0) * FOOT + 5e-3);
+        let [least, floor] = led.depths([-0.5 * LENGTH, -0.5 * LENGTH + 4e-3]);
+        let section = 2.0 * FOOT * floor * 5e-3;
+        assert!(
+            least == floor && (worn / section - 1.0).abs() < 0.05,
+            "{worn:e} of {section:e} m3"
+        );
+    }
 }
