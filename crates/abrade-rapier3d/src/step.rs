@@ -1,4 +1,4 @@
-//! One step of the embedder's world: choose, resolve, steer, engine, settle, renew.
+//! One step of the embedder's world: choose, resolve, steer, engine, settle, collide, renew.
 
 use abrade::Until;
 use nalgebra::{Isometry3, Vector3};
