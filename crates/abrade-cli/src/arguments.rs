@@ -103,7 +103,7 @@ pub(crate) enum Vary {
     Precision,
     /// The step of the engine and the resolver.
     Step,
-    /// The stiffness of the elastic law.
+    /// The stiffness of the surfaces, or Young's modulus where it follows from that.
     Stiffness,
 }
 

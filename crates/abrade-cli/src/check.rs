@@ -1,6 +1,7 @@
 //! `abrade check`: what a scene holds and how large it is.
 
 use abrade::{ElasticLaw, FlowLaw, Lateral, Removal};
+use abrade_report::quantity_text::{digits, length, memory, time};
 use abrade_scene::scene::{
     Motion, Rotation, SceneBody, SceneShape, SceneSurface, Stop, SurfaceMotion,
 };
@@ -8,7 +9,6 @@ use abrade_scene::{Checked, Solid, SurfaceSize};
 
 use crate::arguments::SceneArguments;
 use crate::failure::Failure;
-use crate::quantity_text::{digits, length, memory, time};
 use crate::say::say;
 
 /// Checks the scene and prints its size.

@@ -1,11 +1,11 @@
 //! `abrade clump`: mass properties and overlaps of a clump file, and conversion.
 
+use abrade_report::quantity_text::digits;
 use abrade_scene::clump::{self, ClumpFile, Format, Report};
 use anyhow::{Context, anyhow};
 
 use crate::arguments::{ClumpArguments, ConvertFormat};
 use crate::failure::Failure;
-use crate::quantity_text::digits;
 use crate::say::say;
 
 /// Prints what there is to say about the file, and converts it if asked to.

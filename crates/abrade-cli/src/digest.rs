@@ -4,10 +4,9 @@ use std::fmt::Write;
 use std::path::Path;
 
 use abrade_report::Summary;
+use abrade_report::quantity_text::{length, volume};
 use abrade_scene::Checked;
 use abrade_scene::scene::Output;
-
-use crate::quantity_text::{length, volume};
 
 /// What a run did, in a few lines.
 pub(crate) fn digest(checked: &Checked, summary: &Summary, folder: &Path) -> String {

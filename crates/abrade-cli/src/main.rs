@@ -14,7 +14,6 @@ mod interrupt;
 mod laws;
 mod output_folder;
 mod progress;
-mod quantity_text;
 mod render;
 mod run;
 mod say;

@@ -43,7 +43,7 @@ fn variants(vary: &[Vary]) -> Vec<Variant> {
             Variant::Both => Vary::Both,
             Variant::Single => Vary::Precision,
             Variant::Step(_) => Vary::Step,
-            Variant::Stiffness => Vary::Stiffness,
+            Variant::Stiffness | Variant::Young => Vary::Stiffness,
         };
         vary.is_empty() || vary.contains(&vary_by)
     };

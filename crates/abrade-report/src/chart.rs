@@ -188,7 +188,8 @@ mod tests {
         assert_eq!(Decades::around(std::iter::empty()), Decades { low: 0, high: 1 });
     }
 
-    /// A program that took logarithms of all there is would fail on a chart without curves, or with a point that no logarithm has, are drawn all the same.
+    /// A program that took logarithms of all there is would fail here, for want of a curve, or of a
+    /// point that has one.
     #[test]
     fn what_cannot_be_drawn_is_left_out() {
         let points = vec![[0.0, 1.0], [1.0, f64::NAN], [2.0, -1.0]];

@@ -15,6 +15,7 @@ pub mod mesh_files;
 pub mod page;
 pub mod picture;
 pub mod pvd;
+pub mod quantity_text;
 pub mod summary;
 mod units;
 pub mod vtp;

@@ -61,7 +61,7 @@ pub(crate) fn pitch(checked: &Checked, factor: f64) -> Vec<String> {
     sets
 }
 
-/// Makes what is elastic `factor` times as stiff.
+/// Makes the surfaces whose stiffness the scene gives `factor` times as stiff.
 pub(crate) fn stiffness(checked: &Checked, factor: f64) -> Vec<String> {
     let mut sets = Vec::new();
     for (name, surface) in written_surfaces(checked) {
@@ -70,12 +70,21 @@ pub(crate) fn stiffness(checked: &Checked, factor: f64) -> Vec<String> {
             sets.push(number(&path, stiffness * factor));
         }
     }
-    let is_rigid = |surface: &SceneSurface| surface.elastic == ElasticLaw::Rigid;
-    if checked.scene.surfaces.values().all(is_rigid) {
-        return Vec::new();
-    }
+    sets
+}
+
+/// Makes Young's modulus `factor` times as large where the stiffness of a surface follows from it.
+pub(crate) fn young(checked: &Checked, factor: f64) -> Vec<String> {
+    let follows = |surface: &SceneSurface| match surface.elastic {
+        ElasticLaw::Foundation { stiffness } => stiffness.is_none(),
+        ElasticLaw::HertzNodes { .. } => true,
+        ElasticLaw::Rigid => false,
+    };
+    let surfaces = || checked.scene.surfaces.values();
+    let mut sets = Vec::new();
     for (name, material) in &checked.scene.materials {
-        if let Some(young) = material.young {
+        let counts = surfaces().any(|surface| surface.material == *name && follows(surface));
+        if let Some(young) = material.young.filter(|_| counts) {
             sets.push(number(&path(&["materials", name, "young"]), young * factor));
         }
     }

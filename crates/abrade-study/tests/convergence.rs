@@ -62,6 +62,9 @@ fn errors_fall_with_the_accuracy_and_with_the_pitch() {
     }
     // The finest run of the accuracies is their reference, landing by landing.
     assert_eq!(accuracy.rows.last().unwrap().errors.wear, Some(0.0));
+    // Neither it nor the one before it, which it hardly exceeds, tells of the order.
+    let fitted: Vec<bool> = accuracy.rows.iter().rev().map(|row| row.is_fitted).collect();
+    assert_eq!(fitted[..3], [false, false, true]);
     let table = study.table();
     assert!(table.contains("for 1 %: ") && table.contains("error ~ pitch^"), "{table}");
 }
@@ -152,7 +155,7 @@ fn the_budget_leaves_finer_settings_out() {
 #[test]
 fn the_reference_is_no_setting_to_take() {
     let folder = tempfile::tempdir().unwrap();
-    let variants = vec![Variant::Stiffness, Variant::Accuracy, Variant::Pitch];
+    let variants = vec![Variant::Young, Variant::Accuracy, Variant::Pitch];
     let seen = study(folder.path(), &[], Plan { variants, ..Plan::default() }).unwrap();
     assert!(seen.reference.contains("geometry.pitch=2.5e-5'"), "{}", seen.reference);
     for cheapest in &seen.cheapest {
@@ -161,10 +164,86 @@ fn the_reference_is_no_setting_to_take() {
     }
     assert!(seen.cheapest[0].setting.is_some());
     // On one pitch alone, the table says what its errors do not hold.
-    let variants = vec![Variant::Stiffness];
+    let variants = vec![Variant::Young];
     let seen = study(folder.path(), &[], Plan { variants, ..Plan::default() }).unwrap();
     assert!(seen.reference.contains("do not hold that of the pitch"), "{}", seen.reference);
     assert!(seen.cheapest.iter().all(|cheapest| cheapest.setting.is_none()));
+}
+
+/// Keeps the table as it was when it was asked last; one that is not patient breaks off once there is
+/// one.
+struct Reader {
+    table: PathBuf,
+    seen: String,
+    patient: bool,
+}
+
+impl Progress for Reader {
+    fn advance(&mut self, _: f64, _: Option<f64>) -> bool {
+        self.seen = std::fs::read_to_string(&self.table).unwrap_or_default();
+        self.patient || self.seen.is_empty()
+    }
+}
+
+/// One that wrote its rows at the end alone would lose all of them when it is killed; one that asks
+/// only during runs is not broken off where a run takes a single step.
+#[test]
+fn the_rows_of_a_ladder_are_there_while_the_next_one_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = scene(folder.path(), SCENE);
+    for patient in [true, false] {
+        let plan = Plan {
+            variants: vec![Variant::Pitch, Variant::Accuracy],
+            landings: 1,
+            folder: folder.path().join(format!("study {patient}")),
+            ..Plan::default()
+        };
+        let table = plan.folder.join("study.csv");
+        let mut reader = Reader { table, seen: String::new(), patient };
+        let study = convergence(&path, &[], &plan, &mut reader).unwrap();
+        let rows = reader.seen.lines().skip(1);
+        assert_eq!(rows.clone().count(), study.curves[0].rows.len());
+        assert!(rows.clone().all(|row| row.starts_with("pitch,")), "{}", reader.seen);
+        assert_eq!(study.interrupted, !patient);
+        assert_eq!(study.curves[1].rows.len(), if patient { 9 } else { 1 });
+    }
+}
+
+/// One that changed a modulus which no stiffness follows, or called the one by the other's name,
+/// would show what softer springs do where none are softer.
+#[test]
+fn what_is_varied_of_the_springs_has_its_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = || Plan {
+        variants: vec![Variant::Stiffness, Variant::Young],
+        landings: 1,
+        ..Plan::default()
+    };
+    let follows = study(folder.path(), &[], plan()).unwrap();
+    let [young] = &follows.curves[..] else { panic!("{:?}", follows.curves) };
+    assert!(young.variant == Variant::Young && young.rows[0].rung.sets[0].contains("young="));
+    // Both ends are beyond what the stiffness of `Foundation` follows.
+    let table = follows.table();
+    assert!(table.contains("settings alike"), "{table}");
+    let given = [r#"surfaces."plate.1".elastic=Foundation(stiffness: 1e15)"#.to_owned()];
+    let given = study(folder.path(), &given, plan()).unwrap();
+    let [stiffness] = &given.curves[..] else { panic!("{:?}", given.curves) };
+    assert!(stiffness.variant == Variant::Stiffness);
+    assert!(stiffness.rows[0].rung.sets[0].contains("elastic.stiffness="));
+    let rigid = [r#"surfaces."plate.1".elastic=Rigid"#.to_owned()];
+    let fault = study(folder.path(), &rigid, plan()).unwrap_err().to_string();
+    assert!(fault.contains("nothing of what is to be varied"), "{fault}");
+}
+
+/// One that held an accuracy within its range would show another than it says.
+#[test]
+fn an_accuracy_out_of_range_is_a_row_that_was_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = Plan { variants: vec![Variant::Both], landings: 1, ..Plan::default() };
+    let seen = study(folder.path(), &["run.accuracy=0.1".to_owned()], plan).unwrap();
+    let first = &seen.curves[0].rows[0];
+    assert!(first.failure.as_ref().is_some_and(|why| why.contains("accuracy")), "{first:?}");
+    assert!(seen.curves[0].rows[8].failure.is_none());
 }
 
 /// One that paired bodies by their places would take one for another.

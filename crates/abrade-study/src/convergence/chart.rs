@@ -6,12 +6,15 @@ use abrade_report::chart::{Chart, Series};
 
 use crate::convergence::Study;
 use crate::convergence::compare::Curve;
-use crate::convergence::fit::ROUND_OFF;
 use crate::error::StudyError;
 
-/// Draws one curve per variant whose runs differ by more than rounding.
+/// Error that is drawn at least [-]: below lies what no one chooses a setting for.
+const DRAWN: f64 = 1e-9;
+
+/// Draws one curve per variant that brings a run closer to the model.
 pub(crate) fn write(study: &Study, path: &Path) -> Result<(), StudyError> {
-    let series: Vec<Series> = study.curves.iter().map(series).collect();
+    let refining = study.curves.iter().filter(|curve| curve.variant.refines());
+    let series: Vec<Series> = refining.map(series).collect();
     let chart = Chart {
         title: &study.scene,
         caption: "error of the wear volume, each curve against its own finest run",
@@ -28,6 +31,6 @@ fn series(curve: &Curve) -> Series {
     let slope = curve.slope.map_or_else(String::new, |slope| format!(": slope {slope:.1}"));
     Series {
         name: format!("{}{slope}", curve.variant.name()),
-        points: points.filter(|point| point[1] > ROUND_OFF).collect(),
+        points: points.filter(|point| point[1] > DRAWN).collect(),
     }
 }

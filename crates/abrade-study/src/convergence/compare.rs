@@ -90,9 +90,12 @@ fn row(ladder: &Ladder, rung: &Rung, run: &Measured, references: &References<'_>
             of_landings(run, pair, &mean)
         }
     };
+    let place = |of: &Rung| ladder.rungs.iter().position(|other| other == of);
     let is_close = own.is_some_and(|(reference, _)| {
         let ratio = rung.value / reference.value;
-        reference == rung || ladder.against == Against::Finest && ratio.max(1.0 / ratio) < CLOSE
+        let is_next = place(rung).map(|at| at + 1) == place(reference);
+        let is_near = is_next || ratio.max(1.0 / ratio) < CLOSE;
+        reference == rung || ladder.against == Against::Finest && is_near
     });
     Row {
         rung: rung.clone(),

@@ -18,9 +18,12 @@ pub enum Variant {
     Single,
     /// The step of the engine, and who resolves the contacts.
     Step(Resolve),
-    /// Young's modulus, or the stiffness where the scene gives it: what softer springs save, and
-    /// what that changes. The calibrated stiffness of `Foundation` follows it within bounds.
+    /// The stiffness of the surfaces where the scene gives it: what softer springs save, and what
+    /// that changes.
     Stiffness,
+    /// Young's modulus where the stiffness follows from it; that of `Foundation` does so within
+    /// bounds.
+    Young,
 }
 
 /// What a ladder's runs are compared with.
@@ -63,18 +66,16 @@ pub struct Ladder {
 
 const ACCURACIES: [f64; 9] = [1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5, 1e-6];
 const COARSE_ACCURACIES: [f64; 4] = [1e-1, 1e-2, 1e-3, 1e-4];
-/// Range of the accuracy of a run.
-const ACCURACY_RANGE: [f64; 2] = [1e-6, 0.5];
 /// Factors of the scene's pitch.
 const PITCHES: [f64; 9] = [4.0, 2.8, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25];
 /// Factors of the scene's step.
 const STEPS: [f64; 6] = [8.0, 4.0, 2.0, 1.0, 0.5, 0.25];
-/// Factors of the scene's stiffness.
+/// Factors of the scene's stiffness, and of Young's modulus.
 const STIFFNESSES: [f64; 7] = [1.0 / 64.0, 1.0 / 16.0, 0.25, 0.5, 1.0, 4.0, 16.0];
 
 impl Variant {
     /// Every variant, in the order of a study.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Accuracy,
         Self::Pitch,
         Self::Both,
@@ -83,6 +84,7 @@ impl Variant {
         Self::Step(Resolve::Lockstep),
         Self::Step(Resolve::QuasiStatic),
         Self::Stiffness,
+        Self::Young,
     ];
 
     /// Its name in tables and pictures.
@@ -96,7 +98,8 @@ impl Variant {
             Self::Step(Resolve::Micro) => "step, Micro",
             Self::Step(Resolve::Lockstep) => "step, Lockstep",
             Self::Step(Resolve::QuasiStatic) => "step, QuasiStatic",
-            Self::Stiffness => "Young's modulus",
+            Self::Stiffness => "stiffness",
+            Self::Young => "Young's modulus",
         }
     }
 
@@ -106,13 +109,14 @@ impl Variant {
             Self::Accuracy | Self::Single => "accuracy",
             Self::Pitch | Self::Both => "pitch x",
             Self::Step(_) => "step x",
-            Self::Stiffness => "Young x",
+            Self::Stiffness => "stiffness x",
+            Self::Young => "Young x",
         }
     }
 
     /// True when its number is an error of computing: smaller is closer to the model.
     pub fn refines(self) -> bool {
-        self != Self::Stiffness
+        !matches!(self, Self::Stiffness | Self::Young)
     }
 }
 
@@ -142,8 +146,7 @@ impl Ladder {
             Variant::Pitch => (PITCHES.into_iter().map(by_pitch).collect(), Against::Finest),
             Variant::Both => {
                 let rungs = PITCHES.into_iter().map(|f| {
-                    let [low, high] = ACCURACY_RANGE;
-                    let a = (run.accuracy * f * f).clamp(low, high);
+                    let a = run.accuracy * f * f;
                     let mut rung = Rung { accuracy: a, ..by_pitch(f) };
                     rung.sets.extend(accuracy(a));
                     rung
@@ -159,6 +162,10 @@ impl Ladder {
             }
             Variant::Stiffness => {
                 let rungs = STIFFNESSES.into_iter().map(|f| rung(f, sets::stiffness(checked, f)));
+                (rungs.collect(), Against::Scene)
+            }
+            Variant::Young => {
+                let rungs = STIFFNESSES.into_iter().map(|f| rung(f, sets::young(checked, f)));
                 (rungs.collect(), Against::Scene)
             }
         };
@@ -186,6 +193,10 @@ fn idles(variant: Variant, checked: &Checked) -> bool {
         Variant::Single | Variant::Step(Resolve::Auto | Resolve::Micro) => is_driven,
         Variant::Step(Resolve::Lockstep) => is_driven || !plates,
         Variant::Step(Resolve::QuasiStatic) => is_driven || is_struck || !plates,
-        Variant::Accuracy | Variant::Pitch | Variant::Both | Variant::Stiffness => false,
+        Variant::Accuracy
+        | Variant::Pitch
+        | Variant::Both
+        | Variant::Stiffness
+        | Variant::Young => false,
     }
 }

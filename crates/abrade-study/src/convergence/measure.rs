@@ -177,6 +177,11 @@ impl<'a> Runner<'a> {
         let options = RunOptions { folder, precision: rung.precision };
         let mut wall = f64::INFINITY;
         for repeat in 1.. {
+            // A run that is over within its first step tells no progress.
+            self.watch.advance(0.0, None);
+            if self.watch.interrupted {
+                return Ok(Err(INTERRUPTED.to_owned()));
+            }
             let outcome = match abrade_scene::run(checked, &options, &mut self.watch) {
                 Ok(outcome) => outcome,
                 Err(error @ (RunError::Report(_) | RunError::Folder { .. })) => {

@@ -57,7 +57,7 @@ impl Default for Plan {
 }
 
 /// What a study found.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Study {
     /// Name of the scene.
     pub scene: String,
@@ -76,7 +76,8 @@ pub struct Study {
 }
 
 /// Runs the scene file at `path`, with the `sets` applied, at the settings of `plan`, and writes
-/// `study.csv` and `study.png` into its folder.
+/// `study.csv` and `study.png` into its folder: the rows after each ladder, so that a study that is
+/// killed leaves those of the ladders before, against the finest run of these.
 ///
 /// # Errors
 /// The scene is wrong, the reference cannot be read, no run came to its end, or the results cannot
@@ -93,24 +94,24 @@ pub fn convergence(
         plan.variants.iter().filter_map(|&variant| Ladder::of(variant, &checked)).collect();
     let mut runner = Runner::new(path, sets, plan, progress);
     let mut climbed = Vec::new();
+    let nothing = "nothing of what is to be varied makes a difference to it".to_owned();
+    let mut study = Err(StudyError::Nothing { reason: nothing });
     for (at, ladder) in ladders.iter().enumerate() {
         let left = (ladders.len() - at) as f64;
         climbed.push((ladder, climb(ladder, &mut runner, left)?));
+        let references = References::new(&climbed, given.as_ref());
+        study = references.map(|references| Study {
+            scene: checked.scene.name.clone(),
+            sets: sets.to_vec(),
+            interrupted: runner.is_interrupted(),
+            ..Study::of(&climbed, &references)
+        });
+        // Should the next ladder be killed, this one's rows are there.
+        if let Ok(study) = &study {
+            table::write(study, &plan.folder.join("study.csv"))?;
+        }
     }
-    let references = References::new(&climbed, given)?;
-    let curves: Vec<Curve> =
-        climbed.iter().map(|(ladder, runs)| Curve::new(ladder, runs, &references)).collect();
-    let study = Study {
-        scene: checked.scene.name.clone(),
-        sets: sets.to_vec(),
-        cheapest: cheapest::cheapest(&curves),
-        // Against results from elsewhere both kinds of errors are in every one.
-        told: if references.are_given() { Default::default() } else { estimates::told(&curves) },
-        curves,
-        reference: references.words(),
-        interrupted: runner.is_interrupted(),
-    };
-    table::write(&study, &plan.folder.join("study.csv"))?;
+    let study = study?;
     chart::write(&study, &plan.folder.join("study.png"))?;
     Ok(study)
 }
@@ -136,6 +137,17 @@ fn climb(ladder: &Ladder, runner: &mut Runner<'_>, left: f64) -> Result<Vec<Meas
 }
 
 impl Study {
+    /// What the ladders that were climbed tell.
+    fn of(climbed: &[(&Ladder, Vec<Measured>)], references: &References<'_>) -> Self {
+        let curves = climbed.iter().map(|(ladder, runs)| Curve::new(ladder, runs, references));
+        let curves: Vec<Curve> = curves.collect();
+        let cheapest = cheapest::cheapest(&curves);
+        // Against results from elsewhere both kinds of errors are in every one.
+        let told =
+            if references.are_given() { Default::default() } else { estimates::told(&curves) };
+        Self { curves, cheapest, told, reference: references.words(), ..Self::default() }
+    }
+
     /// The curves as a table to read.
     pub fn table(&self) -> String {
         table::text(self)

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::convergence::quantities::{BodyQuantities, Quantities};
+use crate::convergence::quantities::{BodyQuantities, Quantities, norm};
 use crate::error::StudyError;
 
 /// Reads the file; also gives its name in words.
@@ -37,7 +37,7 @@ fn quantities(value: &Value) -> Quantities {
             restitution: number(body, "restitution"),
             angle: number(body, "rebound_angle_deg"),
             spin: vector(body, "spin_rad_s"),
-            speed: velocity.iter().map(|x| x * x).sum::<f64>().sqrt(),
+            speed: norm(velocity),
             reach: 0.0,
         };
         (name.clone(), quantities)

@@ -26,9 +26,10 @@ impl<'a> References<'a> {
     /// No run came to its end.
     pub fn new(
         climbed: &'a [(&'a Ladder, Vec<Measured>)],
-        given: Option<(Quantities, String)>,
+        given: Option<&(Quantities, String)>,
     ) -> Result<Self, StudyError> {
         if let Some((whole, words)) = given {
+            let (whole, words) = (whole.clone(), words.clone());
             return Ok(Self { climbed, whole, finest: None, words });
         }
         let Some((rung, run)) = finest(climbed) else {
@@ -97,7 +98,7 @@ fn finest<'a>(climbed: &'a [(&'a Ladder, Vec<Measured>)]) -> Option<(&'a Rung, &
     let of_model = |variant: Variant, rung: &Rung| match variant {
         Variant::Accuracy | Variant::Pitch | Variant::Both => true,
         Variant::Step(resolve) => resolve == Resolve::Auto,
-        Variant::Stiffness => rung.value == 1.0,
+        Variant::Stiffness | Variant::Young => rung.value == 1.0,
         Variant::Single => false,
     };
     let runs = climbed.iter().flat_map(|(ladder, runs)| {

@@ -3,12 +3,14 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use abrade_report::quantity_text::{digits, time};
 use abrade_report::{ReportError, atomic};
 use abrade_scene::Precision;
 
 use crate::convergence::Study;
 use crate::convergence::cheapest::Cheapest;
 use crate::convergence::compare::{Curve, Row};
+use crate::convergence::ladder::Variant;
 use crate::convergence::quantities::NAMES;
 use crate::error::StudyError;
 use crate::sets;
@@ -126,6 +128,9 @@ pub(crate) fn text(study: &Study) -> String {
         for row in &curve.rows {
             let _ = writeln!(text, "{}", read(row, &used));
         }
+        if is_bounded(curve) {
+            text.push_str("  settings alike: the stiffness that follows is at a bound\n");
+        }
         if curve.left_out > 0 {
             let _ = writeln!(text, "  {} finer settings left out: the budget", curve.left_out);
         }
@@ -138,6 +143,12 @@ pub(crate) fn text(study: &Study) -> String {
         text.push_str(&advice(study, cheapest));
     }
     text
+}
+
+/// True where another modulus gave the same to the bit.
+fn is_bounded(curve: &Curve) -> bool {
+    let alike = |pair: &[Row]| pair[0].failure.is_none() && pair[0].mean == pair[1].mean;
+    curve.variant == Variant::Young && curve.rows.windows(2).any(alike)
 }
 
 fn head(curve: &Curve) -> String {
@@ -158,8 +169,8 @@ fn cells(row: &Row) -> [Option<String>; 12] {
     let error = |value: Option<f64>| value.map(|value| format!("{value:.1e}"));
     let [wear, depth, force, rate, restitution, angle, spin] = row.errors.array();
     [
-        Some(plain(row.rung.value)),
-        Some(seconds(row.wall)),
+        Some(digits(row.rung.value)),
+        Some(time(row.wall)),
         Some(format!("{:.0}", row.steps)),
         Some(format!("{:.5e}", 1e9 * row.mean.wear)),
         error(wear),
@@ -179,7 +190,7 @@ fn is_used(study: &Study, at: usize) -> bool {
 
 fn read(row: &Row, used: &[bool]) -> String {
     if let Some(failure) = &row.failure {
-        return format!("{:>width$}  {failure}", plain(row.rung.value), width = HEAD[0].1 + 2);
+        return format!("{:>width$}  {failure}", digits(row.rung.value), width = HEAD[0].1 + 2);
     }
     let mut line = String::new();
     for ((cell, (_, width)), _) in cells(row).iter().zip(HEAD).zip(used).filter(|(_, used)| **used)
@@ -190,29 +201,13 @@ fn read(row: &Row, used: &[bool]) -> String {
     line
 }
 
-/// A setting's number: as it is where it is near one.
-fn plain(value: f64) -> String {
-    match (1e-2..1e3).contains(&value) {
-        true => format!("{value:.4}").trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => format!("{value:.1e}"),
-    }
-}
-
-fn seconds(time: f64) -> String {
-    match time {
-        short if short < 1e-3 => format!("{:.0} us", 1e6 * short),
-        short if short < 1.0 => format!("{:.1} ms", 1e3 * short),
-        long => format!("{long:.2} s"),
-    }
-}
-
 fn advice(study: &Study, cheapest: &Cheapest) -> String {
     let target = 100.0 * cheapest.target;
     match &cheapest.setting {
         None => format!("for {target} %: no setting of this study\n"),
         Some((variant, rung, wall, total)) => {
             let again = arguments(&study.sets, rung.precision, &rung.sets);
-            let (name, wall) = (variant.name(), seconds(*wall));
+            let (name, wall) = (variant.name(), time(*wall));
             format!("for {target} %: {name}, {wall}, error {total:.1e}: {again}\n")
         }
     }

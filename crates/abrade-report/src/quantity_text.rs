@@ -1,7 +1,7 @@
-//! Numbers with units, for people.
+//! Numbers with units, for the lines of a terminal.
 
 /// A volume [m3] in the unit that suits it.
-pub(crate) fn volume(value: f64) -> String {
+pub fn volume(value: f64) -> String {
     let (factor, unit) = match value.abs() {
         size if size >= 1e-6 => (1e-6, "cm3"),
         size if size >= 1e-14 || size == 0.0 => (1e-9, "mm3"),
@@ -11,17 +11,17 @@ pub(crate) fn volume(value: f64) -> String {
 }
 
 /// `value` [m] with three digits, in the unit that suits it.
-pub(crate) fn length(value: f64) -> String {
+pub fn length(value: f64) -> String {
     scaled(value, &[(1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm")])
 }
 
 /// `value` [bytes].
-pub(crate) fn memory(value: f64) -> String {
+pub fn memory(value: f64) -> String {
     scaled(value, &[(1e9, "GB"), (1e6, "MB"), (1e3, "kB"), (1.0, "B")])
 }
 
 /// `value` [s].
-pub(crate) fn time(value: f64) -> String {
+pub fn time(value: f64) -> String {
     scaled(value, &[(3600.0, "h"), (60.0, "min"), (1.0, "s"), (1e-3, "ms"), (1e-6, "us")])
 }
 
@@ -34,7 +34,7 @@ fn scaled(value: f64, units: &[(f64, &str)]) -> String {
 }
 
 /// Three significant digits, without trailing zeros.
-pub(crate) fn digits(value: f64) -> String {
+pub fn digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
     match rounded.abs() {
         size if size != 0.0 && !(1e-3..1e5).contains(&size) => format!("{rounded:e}"),
