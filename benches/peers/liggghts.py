@@ -4,9 +4,9 @@
 
 A ball of 3 mm strikes one triangle at 35 m/s. LIGGGHTS adds, while the ball comes nearer,
 2 k f(angle) |force| |velocity| dt per step, with the angle, force and velocity of that step.
-The closed form has the angle before the impact: k m v^2 f(a), f = sin 2a - 3 sin^2 a, and cos^2 a / 3
-where tan a > 1/3. Its factor is that of a head-on approach, over which |force| |velocity| dt adds up
-to m v^2 / 2. What came of it: README.md.
+The closed form has the angle before the impact: k m v^2 f(a), f = sin 2a - 3 sin^2 a, and
+cos^2 a / 3 where tan a > 1/3. Its factor is that of a head-on approach, over which
+|force| |velocity| dt adds up to m v^2 / 2. What came of it: README.md.
 """
 
 import math

@@ -4,8 +4,9 @@ Run from the top of the repository, with the seconds that each study may take (d
 
     python3 benches/study/estimates.py 20
 
-Every case is a shipped scene with some of its values changed. Each is studied over accuracy and over
-pitch, from six landings; docs/errors.md shows what is printed. Takes the standard library alone.
+Every case is a shipped scene with some of its values changed. Each is studied over accuracy and
+over pitch, from six landings; docs/errors.md shows what is printed. Takes the standard library
+alone.
 """
 
 import collections
@@ -97,7 +98,8 @@ def main():
     for varied, all_of_it in found.items():
         within = sum(1.0 / FACTOR <= ratio <= FACTOR for ratio in all_of_it)
         below = sum(ratio <= FACTOR for ratio in all_of_it)
-        print(f"{varied}: {len(all_of_it)} settings, {within} within a factor of 3, {below} at most 3")
+        count = len(all_of_it)
+        print(f"{varied}: {count} settings, {within} within a factor of 3, {below} at most 3")
 
 
 if __name__ == "__main__":
