@@ -29,7 +29,7 @@ pub(crate) fn of(
 }
 
 /// True where springs alone carry the bodies: the ledger of columns is closed by a projection, and
-/// tells nothing of their error.
+/// tells nothing of their error. A fixed body counts: free surfaces meet its faces.
 fn on_springs(checked: &Checked) -> bool {
     let is_ball = |piece: &Piece| matches!(piece, Piece::Ball(_));
     let balls = checked.solids.values().all(|solid| solid.shape.pieces().iter().all(is_ball));

@@ -166,16 +166,18 @@ impl World {
         done.map_err(|error| self.explain(error))
     }
 
-    /// The error with the scene's names.
+    /// The error with the scene's names; the body of a surface has that of the surface.
     fn explain(&self, error: WearError) -> RunError {
         let what = error.to_string();
         let WearError::Physics { body, surface, source } = error else {
             return RunError::Engine { what };
         };
-        // The body of a surface has no name of its own.
-        let Some(body) = self.indices.get(&body).and_then(|&i| self.body_names.get(i)) else {
-            return RunError::Engine { what };
+        let carried = || self.carriers.iter().position(|carrier| *carrier == Some(body));
+        let name = match self.indices.get(&body) {
+            Some(&index) => self.body_names.get(index),
+            None => carried().and_then(|index| self.surface_names.get(index)),
         };
+        let Some(body) = name else { return RunError::Engine { what } };
         let surface = self.surfaces.iter().position(|id| *id == surface);
         RunError::Physics {
             body: body.clone(),

@@ -175,22 +175,37 @@ fn what_cannot_move_is_refused() {
     assert!(error.to_string().contains(message), "{error}");
 }
 
+/// A cube that falls on a body that is fixed.
+const FALLING: &str = "Free(density: 500, velocity: (0, 0, \"-5 m/s\"))";
+const FLOOR: [&str; 6] = [
+    "bodies.b.shape=Cuboid(size: (1, 1, 0.1))",
+    "bodies.b.position=At(point: (0.5, 0, -0.075))",
+    "bodies.b.motion=Fixed",
+    "bodies.b.density=1",
+    "surfaces.s.rotation=AxisAngle(axis: (1, 2, 0), angle: \"50 deg\")",
+    "run.stop=Time(limit: \"20 ms\")",
+];
+
+/// Fails for an error that has the engine's number in the place of a name.
+#[test]
+fn a_free_cube_that_fails_is_named() {
+    let soft = "materials.m.hardness=1 kPa";
+    let checked = load(CUBE, FALLING, &[&FLOOR[..], &[soft]].concat());
+    let checked = checked.unwrap_or_else(|error| panic!("{error}"));
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("moving/named");
+    let options = RunOptions { folder, precision: Precision::Double };
+    let failure = run(&checked, &options, &mut Quiet).expect("a run").failure;
+    let failure = failure.expect("a crater deeper than the cube").to_string();
+    assert!(failure.starts_with("body `s` on surface `s`: "), "{failure}");
+}
+
 /// Fails for a floor that needs a density, that falls, or on which nothing wears.
 #[test]
 fn a_free_cube_wears_on_a_fixed_body() {
-    let sets = [
-        "bodies.b.shape=Cuboid(size: (1, 1, 0.1))",
-        "bodies.b.position=At(point: (0.5, 0, -0.075))",
-        "bodies.b.motion=Fixed",
-        "bodies.b.density=1",
-        "surfaces.s.rotation=AxisAngle(axis: (1, 2, 0), angle: \"50 deg\")",
-        "run.stop=Time(limit: \"20 ms\")",
-    ];
-    let motion = "Free(density: 500, velocity: (0, 0, \"-5 m/s\"))";
-    let endless = load(CUBE, motion, &[&sets[..], &["run.stop=AllRebounded"]].concat());
+    let endless = load(CUBE, FALLING, &[&FLOOR[..], &["run.stop=AllRebounded"]].concat());
     let message = "the run would be over at once: no body can leave a surface";
     assert!(endless.expect_err(message).to_string().contains(message));
-    let checked = load(CUBE, motion, &sets);
+    let checked = load(CUBE, FALLING, &FLOOR);
     let checked = checked.unwrap_or_else(|error| panic!("{error}"));
     let (outcome, _) = ran(&checked, "floor", Precision::Double);
     let summary = &outcome.summary;
