@@ -1,5 +1,5 @@
-//! One impact with one optional part of the core, for a count of instructions: `pay.sh` runs it under
-//! valgrind for every part and prints the table.
+//! One impact with one optional part of the core, for a count of instructions: `pay.sh` runs it
+//! under valgrind for every part and prints the table.
 //!
 //! `cargo bench -p abrade --bench pay -- SHAPE PART` prints the node evaluations of the impact;
 //! without them, the shapes and the parts.

@@ -19,4 +19,5 @@ for shape in $("$bench" | sed -n 's/shapes: //p'); do
             '{ printf "%s %d %d %.1f\n", what, nodes, $1, $1 / nodes }'
     done
 done | awk '$2 == "nothing" { plain = $5 }
-    { printf "%-5s %-12s %9d nodes %12d instructions %9.1f each %+7.2f %%\n", $1, $2, $3, $4, $5, 100 * ($5 / plain - 1) }'
+    { printf "%-5s %-12s %9d nodes %12d instructions %9.1f each %+7.2f %%\n", \
+        $1, $2, $3, $4, $5, 100 * ($5 / plain - 1) }'

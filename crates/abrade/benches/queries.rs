@@ -1,15 +1,18 @@
-//! Time in which a shape answers for a node, beside its limit: the formula alone, over the same points.
+//! Time in which a shape answers for a node, beside its limit: the formula alone, over the same
+//! points.
 //!
 //! `cargo bench -p abrade --features bench --bench queries` prints a table, then criterion's times.
-//! `springs`: overlap of a node, after the question whether there is one. `columns`: lowest point of
-//! the body on the node's line. Both sums must agree with the bare ones.
+//! `springs`: overlap of a node, after the question whether there is one. `columns`: lowest point
+//! of the body on the node's line. Both sums must agree with the bare ones.
 
 #[path = "impacts/cases.rs"]
 #[expect(dead_code, reason = "the shapes of the other benches")]
 mod cases;
+#[path = "impacts/sampling.rs"]
+mod sampling;
 
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use abrade::probe::Asked;
 use abrade::{Ball, Piece, Shape, State};
@@ -17,15 +20,12 @@ use criterion::Criterion;
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 
 use cases::{ball, cube, dodecahedron, pebble};
+use sampling::criterion;
 
 const PASSES: usize = 1000;
 
 fn main() {
-    let mut criterion = Criterion::default()
-        .warm_up_time(Duration::from_millis(300))
-        .measurement_time(Duration::from_secs(1))
-        .sample_size(20)
-        .configure_from_args();
+    let mut criterion = criterion(1, 20);
     let shapes = [
         ("ball", ball().0),
         ("cuboid", cube().0),

@@ -1,27 +1,28 @@
 //! Renewal of a solid: time per node where a side of it has worn.
 //!
-//! `cargo bench -p abrade --bench renewal`. There is no bare loop beside it: what a renewal costs is
-//! the search for a sound mesh, not arithmetic per node.
+//! `cargo bench -p abrade --bench renewal`. There is no bare loop beside it: what a renewal costs
+//! is the search for a sound mesh, not arithmetic per node.
+
+#[path = "impacts/sampling.rs"]
+mod sampling;
 
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use abrade::{
     Body, ElasticLaw, Encounter, EncounterSettings, FlowLaw, Hull, Loads, Material, Placed, Shape,
     State, Surface, SurfaceLaws, TriangleMesh, Until, cuboid_vertices,
 };
-use criterion::{BatchSize, Criterion};
+use criterion::BatchSize;
 use nalgebra::{Isometry3, Point3, Vector3};
+
+use sampling::criterion;
 
 /// Runs, of which the fastest counts.
 const RUNS: usize = 5;
 
 fn main() {
-    let mut criterion = Criterion::default()
-        .warm_up_time(Duration::from_millis(300))
-        .measurement_time(Duration::from_secs(2))
-        .sample_size(10)
-        .configure_from_args();
+    let mut criterion = criterion(2, 10);
     let cube = TriangleMesh::cuboid(Vector3::repeat(0.5), 0.05).expect("a cube");
     let sphere = TriangleMesh::sphere(0.5, 0.05).expect("a sphere");
     println!("{:28} {:>8} {:>8} {:>12}", "solid", "nodes", "worn", "us per node");

@@ -62,15 +62,12 @@ impl Range {
         Self { case, surface, sites, next: 0 }
     }
 
-    /// True when the next landing needs a fresh plate.
-    pub fn is_used_up(&self) -> bool {
-        self.next == self.sites.len()
-    }
-
-    /// A fresh plate.
-    pub fn renew(&mut self) {
-        self.surface = self.case.plate();
-        self.next = 0;
+    /// Takes a fresh plate where the next landing needs one.
+    pub fn make_ready(&mut self) {
+        if self.next == self.sites.len() {
+            self.surface = self.case.plate();
+            self.next = 0;
+        }
     }
 
     /// One impact from first touch to exit, a new encounter included.

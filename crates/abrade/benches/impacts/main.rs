@@ -1,29 +1,27 @@
 //! Time, node evaluations and error in W of one impact, per law and shape.
 //!
 //! `cargo bench -p abrade --bench impacts` prints one table of all three, then criterion's times
-//! side by side; a word after `--` picks cases (`-- plate`). An impact is timed from a new encounter
-//! to its exit, on a fresh site; the table gives the least time of its runs. The error in W is
+//! side by side; a word after `--` picks cases (`-- plate`). An impact is timed from a new
+//! encounter to its exit, on a fresh site; the table gives the least time of its runs. The error in W is
 //! against the same landing at an accuracy of 1e-6; for `Rigid` the pitch sets the step and it is
 //! zero. What optional parts cost is counted, not timed: `benches/pay.sh`.
 
 mod cases;
+mod sampling;
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use criterion::{BenchmarkId, Criterion};
+use criterion::BenchmarkId;
 
 use cases::{
     Case, Range, ball, clump, cube, dodecahedron, foundation, hertz, paper, pebble, projected, unit,
 };
+use sampling::criterion;
 
 fn main() {
     let words: Vec<String> = std::env::args().collect();
-    let mut criterion = Criterion::default()
-        .warm_up_time(Duration::from_millis(300))
-        .measurement_time(Duration::from_secs(2))
-        .sample_size(20)
-        .configure_from_args();
+    let mut criterion = criterion(2, 20);
     let cases = every_case();
     if !words.iter().any(|word| word == "--list" || word == "--test") {
         let picked = words[1..].iter().find(|word| !word.starts_with('-'));
@@ -96,9 +94,7 @@ fn time(case: &Case, count: u64) -> Duration {
     let mut range = Range::new(case.clone());
     let mut spent = Duration::ZERO;
     for _ in 0..count {
-        if range.is_used_up() {
-            range.renew();
-        }
+        range.make_ready();
         let start = Instant::now();
         black_box(range.fire());
         spent += start.elapsed();
@@ -117,9 +113,7 @@ fn print_table<'a>(cases: impl Iterator<Item = &'a Case>) {
         let (mut least, mut spent, mut runs) = (Duration::MAX, Duration::ZERO, 0);
         let mut evaluations = 0;
         while runs < 3 || (spent < Duration::from_millis(300) && runs < 1000) {
-            if range.is_used_up() {
-                range.renew();
-            }
+            range.make_ready();
             let start = Instant::now();
             evaluations = black_box(range.fire()).node_evaluations;
             let time = start.elapsed();

@@ -4,19 +4,22 @@
 //! `cargo bench -p abrade --features bench --bench inner` prints a table, then criterion's times. A
 //! node evaluation is one node that carries force in one step. `all`: the bare loop asks the same
 //! candidates. `touched`: it is given only those in which something changes, so that it pays for
-//! no search at all. `run`: the whole impact or scratch over its node evaluations. Times are the least of many passes, taken in turns; before that both loops
-//! must give the same force, torque and drops.
+//! no search at all. `run`: the whole impact or scratch over its node evaluations. Times are the
+//! least of many passes, taken in turns; before that both loops must give the same force, torque and
+//! drops.
 
 #[path = "../impacts/cases.rs"]
 #[expect(dead_code, reason = "the impacts of the other bench, of which some are taken")]
 mod cases;
+#[path = "../impacts/sampling.rs"]
+mod sampling;
 
 mod bare_ball;
 mod bare_hull;
 mod whole;
 
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use abrade::probe::{Outcome, Recording};
 use abrade::{DriveSolution, ElasticLaw};
@@ -25,6 +28,7 @@ use criterion::{BatchSize, Criterion};
 use bare_ball::BareBall;
 use bare_hull::BareHull;
 use cases::{Case, cube, dodecahedron, foundation, paper, pebble, projected, unit};
+use sampling::criterion;
 use whole::Scratch;
 
 /// Steps of an impact that are taken.
@@ -46,11 +50,7 @@ trait Bare {
 }
 
 fn main() {
-    let mut criterion = Criterion::default()
-        .warm_up_time(Duration::from_millis(300))
-        .measurement_time(Duration::from_secs(1))
-        .sample_size(20)
-        .configure_from_args();
+    let mut criterion = criterion(1, 20);
     println!(
         "{:32} {:>8} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}",
         "step",
@@ -147,8 +147,8 @@ fn compare<B: Bare>(
     of_touched
 }
 
-/// Least time of each of the loops over one step, taken in turns [ns]. Each is taken twice and timed
-/// once: in a run the candidates of a step are those of the step before, and so in the cache.
+/// Least time of each of the loops over one step, taken in turns [ns]. Each is taken twice and
+/// timed once: in a run the candidates of a step are those of the step before, and so in the cache.
 fn least_times<const N: usize>(mut loops: [&mut dyn FnMut() -> Outcome; N]) -> [f64; N] {
     let mut least = [f64::INFINITY; N];
     for _ in 0..PASSES {

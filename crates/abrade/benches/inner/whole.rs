@@ -1,5 +1,5 @@
-//! Whole runs, for the share of them that node evaluations are: an impact from a new encounter to its
-//! exit, and a scratch under a dead load.
+//! Whole runs, for the share of them that node evaluations are: an impact from a new encounter to
+//! its exit, and a scratch under a dead load.
 
 use std::time::Instant;
 
@@ -19,9 +19,7 @@ pub fn impact(case: &Case) -> f64 {
     let mut range = Range::new(case.clone());
     let mut least = f64::INFINITY;
     for _ in 0..RUNS {
-        if range.is_used_up() {
-            range.renew();
-        }
+        range.make_ready();
         let start = Instant::now();
         let done = range.fire();
         least = least.min(per(start, done.node_evaluations));
