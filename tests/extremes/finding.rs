@@ -7,12 +7,8 @@ use crate::run::{self, End, Record};
 
 /// Every so many cases one is run twice.
 const TWICE: u64 = 16;
-/// Share of the energy at the start that time integration may make or lose.
+/// Share of the energy at the start that time integration may make or lose, in a contact.
 pub const NUMERICAL: f64 = 0.05;
-/// The same for a run that is cut off after too many steps.
-const NUMERICAL_CUT: f64 = 0.1;
-/// Share by which the work of loads that change within a step may be off.
-const WORK: f64 = 5e-3;
 /// Rounding of an energy [-].
 const ROUNDING: f64 = 1e-9;
 /// The same where Rapier's velocities in `f32` are all there is.
@@ -26,14 +22,28 @@ pub struct Finding {
     pub numerical: f64,
     /// Energy at the end over that at the start [-], with what Rapier gave where it took over.
     pub left: f64,
+    pub steps: u64,
+    /// Contacts that began.
+    pub touches: u32,
+    /// Energies over that at the start [-]: numerical, wear, friction, stored, history, and H times
+    /// the volume in normal flow.
+    pub shares: [f64; 6],
     pub broken: Vec<String>,
 }
 
 pub fn of(number: u64) -> Finding {
     let case = Case::numbered(number);
     let run = |case: &Case| catch_unwind(AssertUnwindSafe(|| run::run(case)));
-    let nothing =
-        |end, broken| Finding { case: case.clone(), end, numerical: 0.0, left: 1.0, broken };
+    let nothing = |end, broken| Finding {
+        case: case.clone(),
+        end,
+        numerical: 0.0,
+        left: 1.0,
+        steps: 0,
+        touches: 0,
+        shares: [0.0; 6],
+        broken,
+    };
     let record = match run(&case) {
         Err(_) => return nothing(End::Apart, vec!["it panics".to_owned()]),
         Ok(Err(end)) => return nothing(end, Vec::new()),
@@ -50,7 +60,21 @@ pub fn of(number: u64) -> Finding {
     let energy = record.inertia.kinetic_energy(&record.start);
     let numerical = record.ledger.numerical().abs() / energy;
     let left = record.inertia.kinetic_energy(&record.last) / energy;
-    Finding { case, end: record.end, numerical, left, broken }
+    let ledger = &record.ledger;
+    let price = case.hardness * record.worn_normal;
+    let energies =
+        [ledger.numerical(), ledger.wear, ledger.friction, ledger.elastic, ledger.history, price];
+    let shares = energies.map(|e| e / energy);
+    Finding {
+        case,
+        end: record.end,
+        numerical,
+        left,
+        steps: record.steps,
+        touches: record.touches,
+        shares,
+        broken,
+    }
 }
 
 fn is_same(one: &Record, other: &Record) -> bool {
@@ -79,6 +103,24 @@ fn laws(case: &Case, record: &Record) -> Vec<String> {
     let rounding = if is_single { ROUNDING_SINGLE } else { ROUNDING } * start;
     let numerical = ledger.numerical().abs();
     law(record.wear_volume >= 0.0, &|| format!("wear of {:e} m3", record.wear_volume));
+    // Sinking nodes may drag the body along: what friction takes is then below zero, but never more
+    // than the wear has taken.
+    let friction = match case.flow {
+        Flow::CapozzaHanley => ledger.friction,
+        Flow::NormalPressure => ledger.friction + ledger.wear,
+    };
+    for (name, energy) in [
+        ("friction", friction),
+        ("wear", ledger.wear),
+        ("damping", ledger.damping),
+        ("elastic", ledger.elastic),
+    ] {
+        law(energy >= -ROUNDING * start, &|| format!("{name} of {energy:e} J of {start:e}"));
+    }
+    let price = case.hardness * record.worn_normal;
+    law(price <= ledger.wear * (1.0 + ROUNDING) + ROUNDING * start, &|| {
+        format!("H W of {price:e} J for {:e} J of wear, of {start:e}", ledger.wear)
+    });
     let is_whole = record.end.is_normal() || record.end == End::Long;
     if !is_whole {
         if record.end == End::Apart {
@@ -86,20 +128,7 @@ fn laws(case: &Case, record: &Record) -> Vec<String> {
         }
         return broken;
     }
-    // Friction that pulls a node up while the pressure sinks it moves work from one to the other.
-    let flow = match case.flow {
-        Flow::CapozzaHanley => ledger.wear,
-        Flow::NormalPressure => ledger.wear + ledger.friction,
-    };
-    for (name, energy) in [
-        ("friction", ledger.friction),
-        ("wear", flow),
-        ("damping", ledger.damping),
-        ("elastic", ledger.elastic),
-    ] {
-        law(energy >= -ROUNDING * start, &|| format!("{name} of {energy:e} J of {start:e}"));
-    }
-    let allowed = if record.end.is_normal() { NUMERICAL } else { NUMERICAL_CUT };
+    let allowed = NUMERICAL * f64::from(record.touches);
     let given_up = start + ledger.external_work + ledger.elastic_start - last - ledger.elastic;
     law(given_up >= -(numerical + rounding), &|| {
         format!("{:.3e} of the energy was gained", -given_up / start)
@@ -114,10 +143,6 @@ fn laws(case: &Case, record: &Record) -> Vec<String> {
             "kinetic energy changed by {:e}, the ledger says {:e} of {start:e} J",
             change, ledger.kinetic_change
         )
-    });
-    let price = case.hardness * record.worn_normal;
-    law(price <= flow * (1.0 + WORK) + numerical + rounding, &|| {
-        format!("H W of {price:e} J for {flow:e} J of wear, of {start:e}")
     });
     law(record.depths.iter().all(|depth| *depth <= 2.0 * case.size), &|| {
         "a node is deeper than the body is large".into()

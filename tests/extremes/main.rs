@@ -53,7 +53,7 @@ fn assert_lawful(findings: &[Finding]) {
 /// panic or without end, and for a body that falls through its plate.
 #[test]
 fn extremes_of_five_hundred_cases() {
-    let findings = match std::env::var("EXTREME_CASE").ok().and_then(|text| text.parse().ok()) {
+    let findings = match asked("EXTREME_CASE") {
         Some(number) => findings(number, 1),
         None => findings(0, 500),
     };
@@ -64,15 +64,26 @@ fn extremes_of_five_hundred_cases() {
     assert_lawful(&findings);
 }
 
-/// The same, for more, with the map of docs/limits.md. `EXTREME_COUNT` takes another number.
+/// A number from the environment.
+fn asked(name: &str) -> Option<u64> {
+    std::env::var(name).ok().and_then(|text| text.parse().ok())
+}
+
+/// The same, for more: `EXTREME_COUNT` cases from `EXTREME_FIRST` on. The rows of its cases and the
+/// map go to target/extremes, and the map into docs where `EXTREME_DOCS` is set.
 #[test]
-#[ignore = "long: 100 000 cases; writes docs/limits.csv and docs/limits.svg"]
+#[ignore = "long: 100 000 cases"]
 fn extremes_of_a_hundred_thousand_cases() {
-    let count = std::env::var("EXTREME_COUNT").ok().and_then(|text| text.parse().ok());
-    let findings = findings(0, count.unwrap_or(100_000));
+    let first = asked("EXTREME_FIRST").unwrap_or(0);
+    let findings = findings(first, asked("EXTREME_COUNT").unwrap_or(100_000));
     println!("{}", table::of(&findings));
-    let docs = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
-    std::fs::write(docs.join("limits.csv"), table::csv(&findings)).expect("docs/limits.csv");
-    std::fs::write(docs.join("limits.svg"), chart::of(&findings)).expect("docs/limits.svg");
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let kept = root.join("target/extremes");
+    std::fs::create_dir_all(&kept).expect("target/extremes");
+    let rows = kept.join(format!("cases-{first}.csv"));
+    std::fs::write(&rows, table::rows(&findings)).expect("a file of cases");
+    let map = if std::env::var_os("EXTREME_DOCS").is_some() { root.join("docs") } else { kept };
+    std::fs::write(map.join("limits.csv"), table::csv(&findings)).expect("limits.csv");
+    std::fs::write(map.join("limits.svg"), chart::of(&findings)).expect("limits.svg");
     assert_lawful(&findings);
 }

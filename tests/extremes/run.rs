@@ -20,7 +20,8 @@ pub struct Step {
     pub error: Option<String>,
     pub failed: Option<PhysicsError>,
     pub refused: Option<&'static str>,
-    pub started: bool,
+    /// Contacts that began.
+    pub started: u32,
 }
 
 /// A world with one body and one surface.
@@ -109,6 +110,8 @@ pub struct Record {
     pub wear_volume: f64,
     pub worn_normal: f64,
     pub steps: u64,
+    /// Contacts that began.
+    pub touches: u32,
     /// What was wrong on the way.
     pub broken: Vec<String>,
 }
@@ -135,12 +138,12 @@ fn carry(world: &mut dyn World, case: &Case) -> Record {
     let mut broken = Vec::new();
     let mut seen = depths(world.surface());
     let mut renewals = world.surface().renewals();
-    let (mut touched, mut last) = (false, start);
+    let (mut touches, mut last) = (0, start);
     let mut end = None;
     for number in 0..STEPS[0] + STEPS[1] {
         let dt = if number < STEPS[0] { case.dt } else { REST };
         let step = world.step(dt);
-        touched |= step.started;
+        touches += step.started;
         let now = depths(world.surface());
         let rose = now.iter().zip(&seen).any(|(now, seen)| now < seen);
         if rose && renewals == world.surface().renewals() {
@@ -154,12 +157,12 @@ fn carry(world: &mut dyn World, case: &Case) -> Record {
         if world.is_near() {
             last = world.state();
         }
-        end = ended(&step, world, touched);
+        end = ended(&step, world, touches > 0);
         if end.is_some() {
             break;
         }
     }
-    let end = end.unwrap_or(if touched { End::Stays } else { End::Apart });
+    let end = end.unwrap_or(if touches > 0 { End::Stays } else { End::Apart });
     if let End::HandedOn(_) = end {
         last = world.state();
     }
@@ -175,6 +178,7 @@ fn carry(world: &mut dyn World, case: &Case) -> Record {
         wear_volume: surface.wear_volume(),
         worn_normal: surface.worn().normal,
         steps: world.steps(),
+        touches,
         broken,
     }
 }

@@ -36,6 +36,25 @@ pub fn of(findings: &[Finding]) -> String {
     text
 }
 
+/// One row per case: what it is, how it ended, and its energies over that at the start.
+pub fn rows(findings: &[Finding]) -> String {
+    let mut text = String::from(
+        "case,form,target,elastic,flow,precision,end,steps,touches,left,numerical,wear,friction,\
+         stored,history,price,broken\n",
+    );
+    for Finding { case, end, steps, touches, left, shares, broken, .. } in findings {
+        let kind = format!("{:?},{:?},{:?},{:?}", case.form, case.target, case.elastic, case.flow);
+        let shares = shares.map(|share| format!("{share:e}")).join(",");
+        let (number, precision, end, broken) =
+            (case.number, case.precision, end.name(), broken.join("; "));
+        let _ = writeln!(
+            text,
+            "{number},{kind},{precision:?},{end},{steps},{touches},{left:e},{shares},\"{broken}\""
+        );
+    }
+    text
+}
+
 /// The counts of the map: one row per cell and group of ends.
 pub fn csv(findings: &[Finding]) -> String {
     let mut text = String::from("map,x_low,x_high,y_low,y_high,end,cases\n");

@@ -136,7 +136,7 @@ impl World for Trial {
         }
         for event in self.wear.events() {
             match event {
-                WearEvent::Started { .. } => step.started = true,
+                WearEvent::Started { .. } => step.started += 1,
                 WearEvent::Failed { error, .. } => step.failed = Some(error.clone()),
                 WearEvent::NotResolved { reason, .. } => step.refused = Some(reason.name()),
                 _ => {}

@@ -8,6 +8,10 @@ use crate::query::Query;
 
 /// A flow law.
 pub(crate) trait Flow {
+    /// True where the pressure alone moves the node: what friction does on the way down then counts
+    /// as friction, not as wear.
+    const FACE_PRESSURE: bool;
+
     /// The law of a node whose hardness is `factor` times that of the material.
     fn times(&self, factor: f64) -> Self;
 
@@ -105,6 +109,8 @@ impl<L: LateralGeometry> CapozzaHanley<L> {
 }
 
 impl<L: LateralGeometry> Flow for CapozzaHanley<L> {
+    const FACE_PRESSURE: bool = false;
+
     #[inline(always)]
     fn times(&self, factor: f64) -> Self {
         let (hardness, shear_hardness) = (self.hardness * factor, self.shear_hardness * factor);
@@ -156,12 +162,22 @@ impl<L: LateralGeometry> Flow for CapozzaHanley<L> {
                 false => (0.0, *at),
             }
         };
+        // Friction may pull a node up as it sinks aside: one that nothing presses any more stays.
+        let while_pressed =
+            |from: f64, at: &Loaded, (drop, now): (f64, Loaded)| match now.normal_load < 0.0 {
+                true => node.sink([from, drop], at, at.normal_load, |k| k.normal_load),
+                false => (drop, now),
+            };
         let sink_aside = |from: f64, at: &Loaded| {
-            node.sink([from, lateral_limit], at, at.lateral_load, lateral_excess)
+            let sunk = node.sink([from, lateral_limit], at, at.lateral_load, lateral_excess);
+            while_pressed(from, at, sunk)
         };
         let is_yielding = lateral_limit > 0.0 && !closes;
         let (lateral, now) = match lateral_limit > 0.0 {
-            true if closes => close(node, lateral_limit, before.lateral, lateral_excess),
+            true if closes => {
+                let sunk = close(node, lateral_limit, before.lateral, lateral_excess);
+                while_pressed(0.0, start, sunk)
+            }
             true => sink_aside(0.0, start),
             false => (0.0, *start),
         };
@@ -223,6 +239,8 @@ pub(crate) struct NormalPressure {
 }
 
 impl Flow for NormalPressure {
+    const FACE_PRESSURE: bool = true;
+
     #[inline(always)]
     fn times(&self, factor: f64) -> Self {
         Self { hardness: self.hardness * factor }
@@ -236,8 +254,12 @@ impl Flow for NormalPressure {
         _: &Advance,
         _: &Spring,
     ) -> (Drop, Loaded) {
-        let excess = |k: &Loaded| k.normal_force - node.area * self.hardness / k.cosine.max(STEEP);
-        if start.cosine <= STEEP || excess(start) <= 0.0 {
+        // A face too steep to push the node down stops it: it sinks no farther than to there.
+        let excess = |k: &Loaded| match k.cosine > STEEP {
+            true => k.normal_force - node.area * self.hardness / k.cosine,
+            false => -k.normal_force,
+        };
+        if excess(start) <= 0.0 {
             return (Drop::default(), *start);
         }
         // No bound by the advance: H per volume is the law, also where the face turns on a node.
@@ -247,8 +269,9 @@ impl Flow for NormalPressure {
     }
 
     #[inline(always)]
-    fn excess(&self, _: f64, _: &Loaded) -> Excess {
-        Excess::default()
+    fn excess(&self, area: f64, loaded: &Loaded) -> Excess {
+        let normal = loaded.normal_force * loaded.cosine - area * self.hardness;
+        Excess { normal, lateral: 0.0 }
     }
 }
 
@@ -256,10 +279,11 @@ impl Flow for NormalPressure {
 mod tests {
     use super::*;
     use crate::body::State;
+    use crate::clump_query::ClumpQuery;
     use crate::elastic::Foundation;
     use crate::node_law::{Motion, resolve};
-    use crate::query::BallQuery;
-    use crate::shape::Ball;
+    use crate::query::{BallQuery, Contactor};
+    use crate::shape::{Ball, Piece};
     use nalgebra::Point3;
 
     const AREA: f64 = 1e-4;
@@ -345,6 +369,48 @@ mod tests {
         for (before, after, share) in cases {
             assert_eq!(open_share(before, after), share, "{before} {after}");
         }
+    }
+
+    /// Fails for a node that goes on sinking aside when friction alone holds it, and gains energy.
+    #[test]
+    fn a_node_that_friction_pulls_up_does_not_sink_aside() {
+        let (hardness, shear_hardness) = (1e3, 1e-3);
+        let flow =
+            CapozzaHanley::<Projected> { hardness, shear_hardness, lateral: Default::default() };
+        let query = ball(Point3::new(0.0, 0.0, 0.4));
+        let mut node = NodeStep { friction: 2.0, ..node(&query, Point3::new(0.9, 0.0, 0.0)) };
+        node.heading = Vector3::x();
+        let motion =
+            Motion { velocity: Vector3::x(), spin: Vector3::zeros(), drag: None, dt: 1e-2 };
+        let old = Spring { overlap: 6e-3, normal_load: AREA, ..Spring::default() };
+        let old = Spring { excess: Excess { normal: -1.0, lateral: 1e-3 }, ..old };
+        let spring = resolve(&flow, &mut node, &old, &motion).expect("a contact").spring;
+        assert!(spring.drop.lateral > 0.0, "{spring:?}");
+        assert!(spring.normal_load > -1e-9 * spring.tangential_force, "{spring:?}");
+    }
+
+    /// Fails for a node between two balls of a clump that is pushed into the lower one.
+    #[test]
+    fn a_node_sinks_no_farther_than_to_the_next_piece_below_it() {
+        let piece = |z: f64, radius: f64| Contactor {
+            piece: Piece::Ball(Ball { centre: Point3::new(0.0, 0.0, z), radius }),
+            coefficient: 1e3,
+        };
+        let mut query = ClumpQuery::new(&[piece(0.95, 1.0), piece(-0.6, 0.57)], 0.0);
+        query.place(&State::at(Point3::origin()));
+        let ball = ball(Point3::origin());
+        let NodeStep { elastic, x, n, area, friction, jump, steep, heading, trial_stretch, .. } =
+            node(&ball, Point3::origin());
+        let query = &query;
+        let mut node =
+            NodeStep { query, elastic, x, n, area, friction, jump, steep, heading, trial_stretch };
+        let motion =
+            Motion { velocity: -Vector3::z(), spin: Vector3::zeros(), drag: None, dt: 0.05 };
+        let flow = NormalPressure { hardness: 0.1 };
+        let answer = resolve(&flow, &mut node, &Spring::default(), &motion).expect("a contact");
+        // Half-way between the overlaps: 50 mm with the upper ball, 30 mm off the lower one.
+        assert!((answer.spring.drop.normal - 0.04).abs() < 1e-9, "{:?}", answer.spring);
+        assert!(answer.loaded.cosine > STEEP && answer.spring.normal_load > 0.0);
     }
 
     /// Depth to which a ball that comes down, slides by and leaves takes a node, in `count` steps.

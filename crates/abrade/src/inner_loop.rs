@@ -8,7 +8,7 @@ use crate::carried::Grip;
 use crate::elastic::Elastic;
 use crate::flow::Flow;
 use crate::ledger::Ledger;
-use crate::node_law::{Answer, Motion, NodeStep, STEEP, Spring, resolve, stored};
+use crate::node_law::{Answer, Drop, Motion, NodeStep, STEEP, Spring, resolve, stored};
 use crate::query::Query;
 
 /// Laws, body and motion of a step.
@@ -115,7 +115,7 @@ impl<E: Elastic, F: Flow, Q: Query> InnerLoop<'_, E, F, Q> {
                 Some(answer) => {
                     sum.take(&answer, &node);
                     if LEDGER {
-                        sum.ledger.take(&answer, &node, old);
+                        sum.ledger.take::<E, F, Q>(&answer, &node, old);
                     }
                     *new = answer.spring;
                 }
@@ -164,7 +164,12 @@ impl Reaction {
 impl Ledger {
     /// Books one node's step. Out of line, so that a count of calls shows who pays for it.
     #[inline(never)]
-    fn take<E: Elastic, Q>(&mut self, answer: &Answer, node: &NodeStep<'_, E, Q>, old: &Spring) {
+    fn take<E: Elastic, F: Flow, Q>(
+        &mut self,
+        answer: &Answer,
+        node: &NodeStep<'_, E, Q>,
+        old: &Spring,
+    ) {
         let Answer { spring, loaded: k, .. } = answer;
         let coefficient = k.touch.coefficient;
         let stiffness =
@@ -173,9 +178,23 @@ impl Ledger {
         let now = stiffness(spring.overlap);
         self.elastic += stored(node.elastic, coefficient, spring, node.area);
         self.friction += 0.5 * (old.tangential_force + tangential) * k.slip;
-        let flowed = old.drop.normal + old.drop.lateral > 0.0;
-        let mean = if flowed { 0.5 * (old.normal_load + k.normal_load) } else { k.normal_load };
-        self.wear += mean * (spring.drop.normal + spring.drop.lateral);
+        // A gate that opens within the step does so under the load at its end.
+        let mean = |is_open: bool, before: f64, after: f64| {
+            if is_open { 0.5 * (before + after) } else { after }
+        };
+        let Drop { normal, lateral } = spring.drop;
+        let opened = old.drop.normal > 0.0 || old.excess.normal > 0.0;
+        let aside = old.drop.lateral > 0.0 || old.excess.lateral > 0.0;
+        let work = mean(opened, old.normal_load, k.normal_load) * normal
+            + mean(aside, old.normal_load, k.normal_load) * lateral;
+        self.wear += work;
+        if F::FACE_PRESSURE && E::RUBS {
+            let pressed = k.normal_force * k.cosine;
+            let before = pressed + old.excess.normal - spring.excess.normal;
+            let rubbed = work - mean(opened, before, pressed) * normal;
+            self.wear -= rubbed;
+            self.friction += rubbed;
+        }
         if !E::CONSERVATIVE && old.overlap > 0.0 {
             self.history -= 0.5 * (now - stiffness(old.overlap)) * old.stretch.norm_squared();
         }

@@ -1,6 +1,7 @@
 //! The energy ledger: kept only in runs that ask for it.
 
-/// Energies of one body's contacts [J]. Every wear and friction increment is >= 0.
+/// Energies of one body's contacts [J]. Every wear increment is >= 0, and every friction increment
+/// but with `NormalPressure`, where a node that sinks faster than a body goes by drags it along.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub struct Ledger {
@@ -8,9 +9,11 @@ pub struct Ledger {
     pub elastic: f64,
     /// Stored in the springs when the ledger was opened.
     pub elastic_start: f64,
-    /// Dissipated by slip.
+    /// Dissipated by slip; with `NormalPressure` what friction took from the body, its work on the
+    /// drops included.
     pub friction: f64,
-    /// Work of the nodes' forces on their drops (Eqs. 21, 22).
+    /// Work of the nodes' forces on their drops (Eqs. 21, 22); with `NormalPressure` that of the
+    /// pressure alone: H times the volume, and more where a node gives way late.
     pub wear: f64,
     /// Dissipated by the damping of loads and by the dashpots of surfaces with a restitution.
     pub damping: f64,

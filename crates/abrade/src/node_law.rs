@@ -189,7 +189,8 @@ impl<E: Elastic, Q: Query> NodeStep<'_, E, Q> {
         self.elastic.normal_stiffness(coefficient, overlap, self.area) * at.cosine / at.normal_force
     }
 
-    /// The smallest drop within `limit` that brings `excess` to zero, or `limit` if none does.
+    /// The smallest drop within `limit` that brings `excess` to zero, or `limit` if none does; where
+    /// it jumps below zero, the largest before that.
     /// `excess` is a `load` less its cap, above zero at `start`. Secants between brackets, the
     /// first along the load's own relief: the function is nearly linear.
     #[inline(always)]
@@ -212,7 +213,7 @@ impl<E: Elastic, Q: Query> NodeStep<'_, E, Q> {
         for _ in 0..ROOT_STEPS {
             let g = excess(&at);
             if g.abs() <= tolerance || (g > 0.0 && drop == limit) {
-                break;
+                return (drop, at);
             }
             let secant = drop - g * (drop - last.0) / (g - last.1);
             last = (drop, g);
@@ -229,7 +230,8 @@ impl<E: Elastic, Q: Query> NodeStep<'_, E, Q> {
             asked |= drop == limit;
             at = self.at(from + drop);
         }
-        (drop, at)
+        // The excess jumps where another piece of the body comes upon the node: it stops before that.
+        if excess(&at) < -tolerance { (low, self.at(from + low)) } else { (drop, at) }
     }
 }
 
