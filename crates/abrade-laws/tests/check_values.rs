@@ -17,9 +17,12 @@ fn numbers(text: &str) -> Vec<(&str, f64)> {
     fields.map(|(name, text)| (name, value(text))).collect()
 }
 
+/// What the letters of a row stand for.
+type Letters = &'static [(&'static str, &'static str)];
+
 /// The law of a row, what its letters stand for, and the factor from its unit to the law's.
-fn entry(row: &str) -> Option<(&'static str, &'static [(&'static str, &'static str)], f64)> {
-    let names: [(&str, &str, &[(&str, &str)], f64); 12] = [
+fn entry(row: &str) -> Option<(&'static str, Letters, f64)> {
+    let names: [(&str, &'static str, Letters, f64); 12] = [
         (
             "Archard V",
             "archard",
@@ -75,9 +78,8 @@ fn entry(row: &str) -> Option<(&'static str, &'static [(&'static str, &'static s
     Some((found.1, found.2, found.3))
 }
 
-const OKA: &[(&str, &str)] =
-    &[("U", "speed"), ("D", "diameter"), ("Hv", "hardness"), ("alpha", "angle")];
-const BRINELL: &[(&str, &str)] =
+const OKA: Letters = &[("U", "speed"), ("D", "diameter"), ("Hv", "hardness"), ("alpha", "angle")];
+const BRINELL: Letters =
     &[("U", "speed"), ("alpha", "angle"), ("BH", "brinell"), ("Fs", "sharpness")];
 
 fn law(name: &str) -> &'static Law {

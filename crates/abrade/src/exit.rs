@@ -82,11 +82,17 @@ impl Integrator {
             })
     }
 
-    /// True for a body that surfaces without springs have brought to rest.
+    /// True for a body that has been brought to rest and that no spring pushes out again.
     pub(crate) fn has_stopped(&self, body: &Body, surfaces: &[Placed<'_>]) -> bool {
         self.touched
-            && self.contacts.iter().all(Contact::is_rigid)
+            && (self.contacts.iter().all(Contact::is_rigid) || self.is_unsprung())
             && self.relative_energy(body, surfaces) < STOPPED * self.energy_before
+    }
+
+    /// True while no spring pushes the body.
+    fn is_unsprung(&self) -> bool {
+        let zero = Vector3::zeros();
+        self.pull.spring_force == zero && self.pull.spring_torque == zero
     }
 
     /// Kinetic energy of a body over the material that it leans on most [J].

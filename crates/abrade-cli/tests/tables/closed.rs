@@ -123,3 +123,11 @@ fn liner_and_balls_of_a_mill_wear_each_other() {
     let [wear, numerical] = ["wear_J", "numerical_J"].map(|k| at(&summary, &format!("energy.{k}")));
     assert!(numerical.abs() < 5e-3 * wear, "{numerical:e} of {wear:e}");
 }
+
+/// Fails for a ball that goes on in steps too short for a number once no spring pushes it any more.
+#[test]
+fn a_mill_runs_to_its_end_at_a_coarse_accuracy() {
+    let summary = run("closed/ball_mill.ron", &["run.accuracy=0.1".to_owned()]);
+    let liner = at(&summary, "surfaces.liner.wear_volume_m3");
+    assert!(summary["complete"] == true && liner > 5e-9, "{liner:e}");
+}
