@@ -137,12 +137,7 @@ fn a_plate_wears_the_same_in_every_guise() {
                     let (moved, u) = hit(surface.clone(), pose, led);
                     let miss = [moved / w - 1.0, (u - v).norm()];
                     println!("  {frame}: W {:.1e} v {:.1e}", miss[0], miss[1]);
-                    // Faces without springs decide by round-off which of two was passed first.
-                    let allowed = match (name, &laws.elastic) {
-                        ("cube", ElasticLaw::Rigid) => 1e-7,
-                        _ => 1e-9,
-                    };
-                    assert!(miss[0].abs() < allowed, "{name} {guise} {frame}: {miss:?}");
+                    assert!(miss[0].abs() < 1e-9, "{name} {guise} {frame}: {miss:?}");
                 }
             }
         }
