@@ -34,8 +34,6 @@ pub(crate) fn free_time(
     let margin = 0.5 * surface.pitch();
     let patch = match contact {
         Contact::Springs(patch) => patch,
-        // Over a flat surface the box of the nodes says all.
-        Contact::Columns(_) if surface.is_flat() => return 0.0,
         Contact::Columns(columns) => {
             columns.cover(surface, &body.shape, local, COLUMNS_PITCH * surface.pitch());
             return time_to_close(columns.room(&body.shape, local), speed, acceleration);
