@@ -8,6 +8,9 @@ use abrade_report::quantity_text::{length, volume};
 use abrade_scene::Checked;
 use abrade_scene::scene::Output;
 
+/// Share of the energy below which work is rounding.
+const NOTHING: f64 = 1e-9;
+
 /// What a run did, in a few lines.
 pub(crate) fn digest(checked: &Checked, summary: &Summary, folder: &Path) -> String {
     let mut text = String::new();
@@ -71,15 +74,19 @@ fn write_digest(
         let (all, count) = (names.len(), struck.len());
         let mean = struck.iter().sum::<f64>() / count as f64;
         let line = match count {
-            0 => format!("{all} bodies, none of which has struck"),
-            _ => format!("{all} bodies, {count} have struck, mean restitution {mean:.4}"),
+            0 => format!("{all} bodies, none of which has struck and left"),
+            _ => format!("{all} bodies, {count} have struck and left, mean restitution {mean:.4}"),
         };
         writeln!(out, "  stream  {name:12} {line}")?;
     }
     if let Some(energy) = &summary.energy {
+        let work = match energy.external_work {
+            work if work.abs() <= NOTHING * (energy.initial + energy.wear) => String::new(),
+            work => format!(" and {work:.4e} J of work on it"),
+        };
         writeln!(
             out,
-            "  energy  {:.4e} J at the start: kinetic {:.4e}, wear {:.4e}, friction {:.4e}, \
+            "  energy  {:.4e} J at the start{work}: kinetic {:.4e}, wear {:.4e}, friction {:.4e}, \
              numerical {:.1e}",
             energy.initial, energy.kinetic, energy.wear, energy.friction, energy.numerical
         )?;

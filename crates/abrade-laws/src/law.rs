@@ -56,7 +56,7 @@ impl Allowed {
             Self::Positive => "a finite number above zero",
             Self::NotNegative => "a finite number, zero or above",
             Self::Share => "a number from 0 to 1",
-            Self::Angle => "an angle from the surface, from 0 to 90 deg",
+            Self::Angle => "an angle from the surface, from 0 to 90 deg; a bare number is in rad",
             Self::Any => "a finite number",
         }
     }

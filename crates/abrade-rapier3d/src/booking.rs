@@ -66,6 +66,11 @@ impl Contact {
         }
     }
 
+    /// Impulse on the body so far [N s], and time in contact [s].
+    pub fn so_far(&self) -> (Vector3<f64>, f64) {
+        (self.impulse, self.time)
+    }
+
     /// Ends the open contact, if there is one.
     pub fn end(open: &mut Option<Self>, body: RigidBodyHandle, events: &mut Vec<WearEvent>) {
         let Some(Self { impulse, time: contact_time, surfaces }) = open.take() else { return };

@@ -35,7 +35,7 @@ pub(crate) struct Cut {
     pub frame: Isometry3<f64>,
     /// The surface has moved since.
     moves: bool,
-    contact: Option<Contact>,
+    pub contact: Option<Contact>,
 }
 
 impl WearWorld {

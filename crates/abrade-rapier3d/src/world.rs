@@ -6,12 +6,13 @@ use std::collections::BTreeMap;
 use std::ops::Index;
 
 use abrade::{Ledger, State, Surface};
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Vector3};
 use rapier::dynamics::{RigidBodyHandle, RigidBodySet};
 use rapier::geometry::ColliderSet;
 
+use crate::booking::Contact;
 use crate::changed::Changed;
-use crate::collision::Bores;
+use crate::collision::{self, Bores};
 use crate::drive::DrivenBody;
 use crate::error::WearError;
 use crate::event::{Refusal, WearEvent};
@@ -156,6 +157,18 @@ impl WearWorld {
         let cuts = self.find_tool(handle).map_or(&[][..], |tool| &tool.cuts);
         live.is_some_and(|live| live.encounter.in_contact())
             || cuts.iter().any(|cut| cut.encounter.in_contact())
+    }
+
+    /// Impulse on the body, in the world [N s], and time [s] of its contacts that have begun and not
+    /// ended; None while there is none. [`WearEvent::Ended`](crate::WearEvent::Ended) tells it of those
+    /// that have.
+    pub fn open_contact(&self, handle: RigidBodyHandle) -> Option<(Vector3<f64>, f64)> {
+        let own = self.tracked(handle).and_then(|tracked| tracked.contact.as_ref());
+        let cuts = self.find_tool(handle).map_or(&[][..], |tool| &tool.cuts);
+        let lying = collision::open_contacts(&self.bores, handle);
+        let open = own.into_iter().chain(cuts.iter().filter_map(|cut| cut.contact.as_ref()));
+        let sums = open.chain(lying).map(Contact::so_far);
+        sums.reduce(|(impulse, time), (more, longer)| (impulse + more, time.max(longer)))
     }
 
     /// True while the energies of the body's present encounter still grow: from when it comes near

@@ -92,5 +92,5 @@ pub use nodes::Nodes;
 pub use press::{Hold, Pressed};
 pub use renewal::{RenewError, Renewal};
 pub use shape::{Ball, Piece, Shape};
-pub use surface::{NODE_LIMIT, Surface, SurfaceLaws, Worn};
+pub use surface::{NODE_LIMIT, SOLID_NODE_LIMIT, Surface, SurfaceLaws, Worn};
 pub use union_inertia::{UnionInertia, overlapping_pairs};

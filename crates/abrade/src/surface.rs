@@ -21,6 +21,8 @@ use crate::surface_state::SurfaceState;
 
 /// Nodes a surface may have: indices are 32 bits wide, and a node takes about 90 bytes.
 pub const NODE_LIMIT: f64 = 2e8;
+/// Most nodes of a solid, which takes 1 to 1.5 kB for each while it is made and looked over.
+pub const SOLID_NODE_LIMIT: f64 = 5e6;
 
 /// The laws a surface obeys.
 #[derive(Clone, Debug, PartialEq)]

@@ -86,7 +86,7 @@ fn more_nodes_than_can_be() {
         &[(PLATE, r#"Cuboid(half_extents: (1, 1, 1), pitch: "1 um")"#), (ON, AT)],
         &[],
         &[],
-        r#"error: the surface `plate` has more than 2e8 nodes
+        r#"error: the surface `plate` has more than 5e6 nodes
   --> scene.ron:11:56
    |
 11 |       geometry: Cuboid(half_extents: (1, 1, 1), pitch: "1 um"),

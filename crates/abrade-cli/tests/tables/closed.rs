@@ -131,3 +131,15 @@ fn a_mill_runs_to_its_end_at_a_coarse_accuracy() {
     let liner = at(&summary, "surfaces.liner.wear_volume_m3");
     assert!(summary["complete"] == true && liner > 5e-9, "{liner:e}");
 }
+
+/// Fails for a mean force of the contacts that are over, where one goes on, and for a restitution of
+/// what never left.
+#[test]
+fn a_pin_that_slides_bears_its_weight_and_does_not_rebound() {
+    let summary = run("closed/square_track.ron", &[]);
+    let pin = &summary["bodies"]["pin"];
+    let weight = 20.0;
+    let up = pin["mean_force_N"][2].as_f64().expect("a force");
+    assert!((up / weight - 1.0).abs() < 0.05, "{up}");
+    assert!(pin["restitution"].is_null() && pin["rebound_angle_deg"].is_null(), "{pin}");
+}

@@ -91,6 +91,11 @@ impl Lying {
         self.rub.take()
     }
 
+    /// The contact that is open.
+    pub fn contact(&self) -> Option<&Contact> {
+        self.contact.as_ref()
+    }
+
     /// The contact that is pressed.
     pub fn rub(&self) -> Option<&Rub> {
         self.rub.as_ref()

@@ -24,6 +24,7 @@ use abrade::{Ledger, PhysicsError};
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{Collider, ColliderHandle, ContactPair};
 
+use crate::booking::Contact;
 use crate::collision::blow::Blow;
 use crate::collision::clusters::Clusters;
 use crate::collision::lying::{Bearing, Lying};
@@ -121,6 +122,15 @@ impl Bore {
         (self.blow, self.energy, self.steps) = (0.0, 0.0, 0);
         if strikes { Bears::Strikes } else { Bears::Lies(borne.min(before)) }
     }
+}
+
+/// The contacts that are open in which the body lies.
+pub(crate) fn open_contacts(
+    bores: &Bores,
+    body: RigidBodyHandle,
+) -> impl Iterator<Item = &Contact> {
+    let lying = bores.values().filter_map(|bore| bore.kept.as_ref());
+    lying.filter(move |lying| lying.body() == body).filter_map(Lying::contact)
 }
 
 impl WearWorld {

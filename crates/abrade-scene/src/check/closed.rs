@@ -1,6 +1,6 @@
 //! What is wrong with the mesh of a closed surface, at its place in the scene or in its file.
 
-use abrade::{MeshError, NODE_LIMIT, ParameterError};
+use abrade::{MeshError, ParameterError, SOLID_NODE_LIMIT};
 
 use super::Checker;
 use crate::closed::ClosedTrouble;
@@ -45,7 +45,8 @@ impl Checker<'_> {
                 self.refuse(&pitch, format!("`{pitch}` is too coarse"), label);
             }
             MeshError::TooMany { what, count, .. } => {
-                let message = format!("the surface `{name}` has more than {NODE_LIMIT:.0e} nodes");
+                let message =
+                    format!("the surface `{name}` has more than {SOLID_NODE_LIMIT:.0e} nodes");
                 self.refuse(&pitch, message, format!("gives {count:.3e} {what}"));
             }
             MeshError::Resample { ref reason, .. } => {

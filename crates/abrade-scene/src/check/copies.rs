@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use abrade::{NODE_LIMIT, ParameterError, TriangleMesh};
+use abrade::{ParameterError, SOLID_NODE_LIMIT, TriangleMesh};
 
 use super::{Checked, Checker, vector};
 use crate::copies::MOST;
@@ -82,8 +82,9 @@ impl Checker<'_> {
         mesh: &TriangleMesh,
     ) {
         let nodes = copies.count() as f64 * mesh.vertices().len() as f64;
-        if nodes > NODE_LIMIT {
-            let message = format!("the surface `{name}` has more than {NODE_LIMIT:.0e} nodes");
+        if nodes > SOLID_NODE_LIMIT {
+            let message =
+                format!("the surface `{name}` has more than {SOLID_NODE_LIMIT:.0e} nodes");
             return self.refuse(&path.join("counts"), message, format!("gives {nodes:.3e}"));
         }
         let placed = surface.copies(name).map(|(name, copy)| Some((name, place::home(&copy)?)));

@@ -201,6 +201,12 @@ impl Bodies {
         }
     }
 
+    /// True where something leads a surface that the body met: its speeds say nothing of an impact.
+    pub(crate) fn met_led(&self, track: &Track) -> bool {
+        let is_led = |surface: usize| self.carriers[surface].is_some_and(|c| c.inertia.is_none());
+        track.landings.iter().any(|(surface, _)| is_led(*surface))
+    }
+
     /// Kinetic energy of the free bodies of surfaces, at the start [J].
     pub(crate) fn carried_at_start(&self) -> f64 {
         self.carriers.iter().flatten().map(|body| body.kinetic_energy(&body.state)).sum()

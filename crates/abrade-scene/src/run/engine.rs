@@ -27,6 +27,9 @@ pub(crate) trait Engine {
     /// True while nodes carry force on a body.
     fn in_contact(&self, body: usize) -> bool;
 
+    /// Impulse on a body [N s] and time [s] of its contacts that have not ended.
+    fn open_contact(&self, body: usize) -> Option<(Vector3<f64>, f64)>;
+
     /// True while a body's own energies are part of the ledger: near a surface, or driven.
     fn has_ledger(&self, body: usize) -> bool;
 

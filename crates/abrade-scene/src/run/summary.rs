@@ -99,9 +99,13 @@ fn body(run: &Run<'_>, index: usize, track: &Track) -> BodySummary {
     let state = run.engine.state(index);
     let slide = track.slide.as_ref();
     let mean = slide.and_then(|slide| slide.mean_force());
-    let impact = (track.contact_time > 0.0).then(|| track.impulse / track.contact_time);
+    let open = run.engine.open_contact(index);
+    let (impulse, time) = open.unwrap_or_default();
+    let (impulse, time) = (track.impulse + impulse, track.contact_time + time);
+    let impact = (time > 0.0).then(|| impulse / time);
     let force = mean.or(impact).unwrap_or_default();
-    let approach = track.approach.filter(|v| slide.is_none() && v.norm() > 0.0);
+    let parted = slide.is_none() && open.is_none() && !run.bodies.met_led(track);
+    let approach = track.approach.filter(|v| parted && v.norm() > 0.0);
     let local = track.aim.map(|frame| frame.inverse_transform_vector(&state.velocity));
     let angle = |v: nalgebra::Vector3<f64>| v.z.atan2(v.xy().norm()).to_degrees();
     BodySummary {

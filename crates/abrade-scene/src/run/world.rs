@@ -261,6 +261,10 @@ impl Engine for World {
         self.wear.in_contact(self.bodies[body])
     }
 
+    fn open_contact(&self, body: usize) -> Option<(Vector3<f64>, f64)> {
+        self.wear.open_contact(self.bodies[body])
+    }
+
     fn has_ledger(&self, body: usize) -> bool {
         self.driven[body] || self.wear.in_encounter(self.bodies[body])
     }

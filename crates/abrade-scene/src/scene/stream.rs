@@ -23,7 +23,8 @@ pub struct Stream {
     #[serde(deserialize_with = "quantity::time")]
     #[schemars(with = "Quantity")]
     pub every: f64,
-    /// Where the first one starts; says in which axes `motion` counts.
+    /// Where the first one starts; says in which axes `motion` counts. All are there from the start, the
+    /// others behind it along their velocity: leave room there, and mind that gravity pulls them all.
     pub position: Placement,
     /// How they fly: `Free(..)` or `Impact(..)`, at a speed.
     pub motion: Motion,

@@ -11,7 +11,7 @@ use super::error::MeshError;
 use super::lathe::{Ring, stitch};
 use super::solids::{check_round, check_sizes};
 use crate::error::ParameterError;
-use crate::surface::NODE_LIMIT;
+use crate::surface::SOLID_NODE_LIMIT;
 
 /// Sizes of a pipe bend. Its axis comes along +z to the origin of its frame, turns by `angle` about
 /// the line x = `radius`, z = 0, towards +x, and goes on straight.
@@ -98,7 +98,7 @@ impl Bend {
         let around = |wall: f64, rings: f64| rings * (TAU * wall / pitch + 1.0);
         let nodes = around(self.inner, counts[0].iter().sum())
             + around(self.outer, counts[1].iter().sum::<f64>() + 2.0 * across);
-        bound_count("vertices", nodes, NODE_LIMIT)?;
+        bound_count("vertices", nodes, SOLID_NODE_LIMIT)?;
         let [bore, outside] = counts.map(|counts| self.stations(&counts));
         let wall = |k: usize| self.inner + (self.outer - self.inner) * k as f64 / across;
         let ends = 1..across as usize;

@@ -9,7 +9,7 @@ use super::check::bound_count;
 use super::error::MeshError;
 use super::solids::check_sizes;
 use crate::error::ParameterError;
-use crate::surface::NODE_LIMIT;
+use crate::surface::SOLID_NODE_LIMIT;
 
 impl TriangleMesh {
     /// A box about the origin with these `half_extents` [m]. Each face is a regular grid, its
@@ -27,7 +27,7 @@ impl TriangleMesh {
         ])?;
         let parts = half_extents.map(|h| (2.0 * h / pitch).round().max(1.0));
         let [l, m, n] = parts.into();
-        bound_count("vertices", 2.0 * (l * m + m * n + n * l) + 2.0, NODE_LIMIT)?;
+        bound_count("vertices", 2.0 * (l * m + m * n + n * l) + 2.0, SOLID_NODE_LIMIT)?;
         let mut lattice = Lattice {
             half_extents,
             parts: [l, m, n].map(|count| count as u32),
@@ -60,7 +60,11 @@ impl TriangleMesh {
         }
         let [columns, rows] = check_heights(heights, base)?;
         let rim_count = 2 * (columns + rows) - 4;
-        bound_count("vertices", columns as f64 * rows as f64 + rim_count as f64 + 1.0, NODE_LIMIT)?;
+        bound_count(
+            "vertices",
+            columns as f64 * rows as f64 + rim_count as f64 + 1.0,
+            SOLID_NODE_LIMIT,
+        )?;
         let place = |column: usize, row: usize, z: f64| {
             Point3::new(column as f64 * spacing_x, row as f64 * spacing_y, z)
         };

@@ -6,7 +6,7 @@ use super::error::MeshError;
 use super::links::{self, Side};
 use super::shells::{Shell, shells};
 use super::{crossing, nodes};
-use crate::surface::NODE_LIMIT;
+use crate::surface::SOLID_NODE_LIMIT;
 
 /// Area of a facet over the square of its longest edge, below which it counts as a line.
 const SLIVER: f64 = 1e-12;
@@ -46,8 +46,8 @@ fn counts(vertices: f64, facets: usize) -> Result<(), MeshError> {
     if facets < 4 {
         return Err(MeshError::TooFewFacets { facets });
     }
-    bound_count("vertices", vertices, NODE_LIMIT)?;
-    bound_count("facets", facets as f64, 2.0 * NODE_LIMIT)
+    bound_count("vertices", vertices, SOLID_NODE_LIMIT)?;
+    bound_count("facets", facets as f64, 2.0 * SOLID_NODE_LIMIT)
 }
 
 /// Fails if `count`, which may not be a number, is above `limit`.
@@ -199,7 +199,7 @@ mod tests {
     #[test]
     fn too_many_vertices_are_refused_by_number() {
         let message = counts(3e8, 9).expect_err("too many").to_string();
-        assert_eq!(message, "the mesh would have 3.000e8 vertices, at most 2.0e8 are allowed");
+        assert_eq!(message, "the mesh would have 3.000e8 vertices, at most 5.0e6 are allowed");
         assert!(matches!(counts(9.0, 400_000_001), Err(MeshError::TooMany { what: "facets", .. })));
         assert_eq!(counts(4.0, 3), Err(MeshError::TooFewFacets { facets: 3 }));
     }

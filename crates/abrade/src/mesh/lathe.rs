@@ -8,7 +8,7 @@ use nalgebra::Point3;
 use super::TriangleMesh;
 use super::check::bound_count;
 use super::error::MeshError;
-use crate::surface::NODE_LIMIT;
+use crate::surface::SOLID_NODE_LIMIT;
 
 /// Fewest nodes of a ring that is not a pole.
 const LEAST_RING: f64 = 6.0;
@@ -74,7 +74,7 @@ impl Piece {
 /// the material in the plane of (r, z), and begin and end on the axis or on z = 0.
 pub(super) fn turn(pieces: &[Piece], pitch: f64) -> Result<TriangleMesh, MeshError> {
     let count = 2.0 * pieces.iter().map(|piece| piece.nodes(pitch)).sum::<f64>();
-    bound_count("vertices", count, NODE_LIMIT)?;
+    bound_count("vertices", count, SOLID_NODE_LIMIT)?;
     let mut vertices = Vec::new();
     let rings: Vec<Ring> = profile(pieces, pitch)
         .into_iter()

@@ -14,7 +14,7 @@ use super::TriangleMesh;
 use super::check::bound_count;
 use super::error::MeshError;
 use super::solids::check_sizes;
-use crate::surface::NODE_LIMIT;
+use crate::surface::SOLID_NODE_LIMIT;
 use features::Features;
 use original::Original;
 use patchwork::Patchwork;
@@ -35,7 +35,7 @@ impl TriangleMesh {
     pub fn resampled(&self, pitch: f64) -> Result<Self, MeshError> {
         check_sizes([("pitch", pitch)])?;
         let count = self.area() / (0.75f64.sqrt() * pitch * pitch);
-        bound_count("vertices", count, NODE_LIMIT)?;
+        bound_count("vertices", count, SOLID_NODE_LIMIT)?;
         let features = Features::of(self);
         let original = Original::of(self, &features);
         let mut patchwork = Patchwork::of(self, features);
