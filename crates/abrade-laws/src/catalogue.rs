@@ -2,7 +2,7 @@
 
 use abrade::quantity::{ANGLE, Dimension, FORCE, LENGTH, MASS, PRESSURE, SPEED};
 
-use crate::erosion::{Ahlert, Dnv, Ecrc, Finnie1960, Finnie1972, Grit, Impact, Oka};
+use crate::erosion::{Dnv, Finnie1960, Finnie1972, Grit, Impact, Oka, Steel, SteelCurve};
 use crate::law::{Allowed, Given, Law, Output, Parameter, Status};
 use crate::sliding::{Archard, cone_section, groove_section};
 
@@ -173,15 +173,12 @@ pub const LAWS: &[Law] = &[
             IMPACT_ANGLE,
             BRINELL,
             SHARPNESS,
-            constant("factor", Ecrc::FACTOR, Allowed::Positive, "C, with U in m/s"),
+            constant("factor", SteelCurve::Zhang.factor(), Allowed::Positive, "C, with U in m/s"),
         ],
         status: Status::Seen,
         from_memory: None,
         source: "Wear 263 (2007) 330-338",
-        value: |given| {
-            let (brinell, sharpness) = (given["brinell"], given["sharpness"]);
-            Ecrc { factor: given["factor"], brinell, sharpness }.ratio(&impact(given, 1.0))
-        },
+        value: |given| steel(given, SteelCurve::Zhang),
     },
     Law {
         name: "ahlert",
@@ -194,16 +191,13 @@ pub const LAWS: &[Law] = &[
             IMPACT_ANGLE,
             BRINELL,
             SHARPNESS,
-            constant("factor", Ahlert::FACTOR, Allowed::Positive, "A, with U in m/s"),
+            constant("factor", SteelCurve::Ahlert.factor(), Allowed::Positive, "A, with U in m/s"),
         ],
         status: Status::Seen,
         from_memory: Some("factor"),
         source: "constants of f as in the manual of Autodesk CFD, where y has the other sign; with \
                  this one f is continuous at 15 deg to 0.011",
-        value: |given| {
-            let (brinell, sharpness) = (given["brinell"], given["sharpness"]);
-            Ahlert { factor: given["factor"], brinell, sharpness }.ratio(&impact(given, 1.0))
-        },
+        value: |given| steel(given, SteelCurve::Ahlert),
     },
     Law {
         name: "archard",
@@ -296,6 +290,11 @@ const fn oka(name: &'static str, title: &'static str, value: fn(&Given<'_>) -> f
 fn oka_of(given: &Given<'_>, grit: Grit) -> f64 {
     let law = Oka { hardness: given["hardness"], diameter: given["diameter"], grit };
     law.volume_per_mass(&impact(given, 1.0))
+}
+
+fn steel(given: &Given<'_>, curve: SteelCurve) -> f64 {
+    let [factor, brinell, sharpness] = ["factor", "brinell", "sharpness"].map(|name| given[name]);
+    Steel { curve, factor, brinell, sharpness }.ratio(&impact(given, 1.0))
 }
 
 fn archard(given: &Given<'_>) -> Archard {

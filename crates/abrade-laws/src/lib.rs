@@ -16,6 +16,6 @@ mod law;
 pub mod sliding;
 
 pub use catalogue::LAWS;
-pub use erosion::{Ahlert, Dnv, Ecrc, Finnie1960, Finnie1972, Grit, Impact, Oka};
+pub use erosion::{Dnv, Finnie1960, Finnie1972, Grit, Impact, Oka, Steel, SteelCurve};
 pub use law::{Allowed, Law, LawError, Output, Parameter, Status};
 pub use sliding::{Archard, cone_section, groove_section};

@@ -1,16 +1,14 @@
 //! Erosion: what one particle's impact takes off.
 
-mod ahlert;
 mod dnv;
-mod ecrc;
 mod finnie;
 mod oka;
+mod steel;
 
-pub use ahlert::Ahlert;
 pub use dnv::Dnv;
-pub use ecrc::Ecrc;
 pub use finnie::{Finnie1960, Finnie1972};
 pub use oka::{Grit, Oka};
+pub use steel::{Steel, SteelCurve};
 
 /// The impact of one particle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +20,3 @@ pub struct Impact {
     /// Angle alpha from the surface [rad].
     pub angle: f64,
 }
-
-/// Brinell hardness to the power that both laws of the Erosion/Corrosion Research Center give it.
-const BRINELL_POWER: f64 = -0.59;
