@@ -20,9 +20,11 @@ pub(crate) enum Command {
     Run(RunArguments),
     /// Check a scene and say how large it is; nothing is run, nothing is written.
     Check(SceneArguments),
-    /// Make a study: many runs of a scene, compared.
+    /// Make a study: many runs, compared.
     #[command(subcommand)]
     Study(StudyCommand),
+    /// Make an erosion study in parts: some of its cases, anywhere, and merge them.
+    Sweep(SweepArguments),
     /// Look over a clump file, or convert it.
     Clump(ClumpArguments),
     /// List the closed-form laws of wear, or evaluate one.
@@ -63,6 +65,49 @@ pub(crate) enum StudyCommand {
     /// How the error falls with the run time: runs the scene at ladders of accuracy, pitch, engine
     /// precision and step, resolver and stiffness, and compares each with the finest run.
     Convergence(ConvergenceArguments),
+    /// How much grains of several forms wear a plate, by angle and speed: means with intervals, and
+    /// ratios to a sphere. Goes on where it was broken off.
+    Erosion(ErosionArguments),
+}
+
+/// A study of erosion and where it goes.
+#[derive(Args)]
+pub(crate) struct ErosionArguments {
+    /// Study file (RON).
+    pub(crate) study: PathBuf,
+    /// Change a value of the study, as in samples.most=256; may be repeated.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub(crate) sets: Vec<String>,
+    /// Folder for the results [default: runs/<study name>].
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Threads [default: one per core].
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) jobs: Option<u16>,
+}
+
+/// Arguments of `sweep`.
+#[derive(Args)]
+pub(crate) struct SweepArguments {
+    #[command(flatten)]
+    pub(crate) erosion: ErosionArguments,
+    /// Make this case alone, by its number from 0; one that is there already is left as it is.
+    #[arg(long, value_name = "K", group = "part")]
+    pub(crate) case: Option<usize>,
+    /// Make every Nth case, from case I on, with I from 0 to N - 1.
+    #[arg(long, value_name = "I/N", group = "part", value_parser = shard)]
+    pub(crate) shard: Option<[usize; 2]>,
+    /// Write the tables of all cases in the results folder, and in these folders if any are given.
+    #[arg(long, value_name = "DIR", num_args = 0.., group = "part")]
+    pub(crate) merge: Option<Vec<PathBuf>>,
+    /// List the cases, and say which are there.
+    #[arg(long, group = "part")]
+    pub(crate) list: bool,
+}
+
+fn shard(text: &str) -> Result<[usize; 2], String> {
+    let parts = text.split_once('/').and_then(|(i, n)| Some([i.parse().ok()?, n.parse().ok()?]));
+    parts.filter(|[i, n]| i < n).ok_or_else(|| "expected I/N with I from 0 to N - 1".to_owned())
 }
 
 /// Arguments of `study convergence`.

@@ -123,6 +123,8 @@ fn body_text(body: &SceneBody, solid: &Solid) -> String {
         SceneShape::Cuboid { .. } => "cuboid".to_owned(),
         SceneShape::Polyhedron { kind, .. } => format!("{kind:?}").to_lowercase(),
         SceneShape::ConvexHull { .. } => "convex hull".to_owned(),
+        SceneShape::Grain { spheres: None, .. } => "grain".to_owned(),
+        SceneShape::Grain { .. } => format!("grain of {} spheres", solid.shape.pieces().len()),
         SceneShape::Clump { .. } => format!("clump of {} spheres", solid.shape.pieces().len()),
     };
     let reach = length(solid.shape.bounding_radius());

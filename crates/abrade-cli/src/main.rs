@@ -9,6 +9,7 @@ mod arguments;
 mod check;
 mod clump;
 mod digest;
+mod erosion;
 mod failure;
 mod interrupt;
 mod laws;
@@ -19,6 +20,7 @@ mod run;
 mod say;
 mod schema;
 mod study;
+mod sweep;
 
 use std::process::ExitCode;
 
@@ -31,6 +33,8 @@ fn main() -> ExitCode {
         Command::Run(arguments) => run::run(&arguments),
         Command::Check(arguments) => check::check(&arguments),
         Command::Study(StudyCommand::Convergence(arguments)) => study::convergence(&arguments),
+        Command::Study(StudyCommand::Erosion(arguments)) => erosion::erosion(&arguments),
+        Command::Sweep(arguments) => sweep::sweep(&arguments),
         Command::Clump(arguments) => clump::clump(&arguments),
         Command::Laws(arguments) => laws::laws(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),

@@ -50,11 +50,13 @@ fn variants(vary: &[Vary]) -> Vec<Variant> {
     Variant::ALL.into_iter().filter(wanted).collect()
 }
 
-fn failure(error: StudyError) -> Failure {
+pub(crate) fn failure(error: StudyError) -> Failure {
     match error {
         StudyError::Scene(error) => error.into(),
         StudyError::Interrupted => Failure::Interrupted,
-        StudyError::Reference { .. } => Failure::Input(error.into()),
+        StudyError::Reference { .. } | StudyError::Case(_) | StudyError::NoCases { .. } => {
+            Failure::Input(error.into())
+        }
         StudyError::Run(_) | StudyError::Report(_) | StudyError::Nothing { .. } => {
             Failure::Run(error.into())
         }

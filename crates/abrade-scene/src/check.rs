@@ -19,6 +19,7 @@ use std::path::PathBuf;
 
 use abrade::{ParameterError, TriangleMesh};
 
+use crate::document;
 use crate::led_path::LedPath;
 use crate::patched::Patched;
 use crate::problem::{Mark, Problem, Source, any_of, suggestion};
@@ -108,13 +109,7 @@ impl<'a> Checker<'a> {
 impl Checker<'_> {
     /// The mark of the value at `path`, or of the nearest that is written on the way to it.
     fn mark(&self, path: &ScenePath, label: impl Into<String>) -> Mark {
-        let text = &self.patched.text;
-        let found = self.tree.find(text, &path.0);
-        let range = match (found.depth == path.0.len(), &found.key) {
-            (true, _) | (false, None) => found.place(text),
-            (false, Some(key)) => key.clone(),
-        };
-        self.patched.mark(range, label)
+        document::mark(self.patched, self.tree, path, label)
     }
 
     fn refuse(&mut self, path: &ScenePath, message: String, label: impl Into<String>) {
@@ -125,8 +120,7 @@ impl Checker<'_> {
     /// A value of the field named in `error`, directly inside `path`.
     fn out_of_range(&mut self, path: &ScenePath, error: &ParameterError) {
         let path = path.join(error.field);
-        // An angle's bound, as angles are written.
-        let allowed = error.allowed.replace("1.5707963267948966", "90 deg");
+        let allowed = document::allowed(error);
         self.refuse(&path, format!("`{path}` is out of range"), format!("must be {allowed}"));
     }
 
@@ -171,12 +165,9 @@ impl Checker<'_> {
 
     /// The name becomes a folder's.
     fn check_name(&mut self) {
-        let name = &self.scene.name;
-        let forbidden = |c: char| matches!(c, '/' | '\\') || c.is_control();
-        if name.trim().is_empty() || name.starts_with('.') || name.contains(forbidden) {
+        if let Some(fault) = document::folder_name_fault(&self.scene.name) {
             let path = ScenePath::of(["name"]);
-            let label = "must name a folder: not empty, no leading `.`, no `/` or `\\`";
-            self.refuse(&path, "`name` cannot be the name of a folder".into(), label);
+            self.refuse(&path, "`name` cannot be the name of a folder".into(), fault);
         }
     }
 

@@ -22,16 +22,18 @@ pub(crate) struct Piece {
 /// A text made of pieces of several sources.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Patched {
+    /// What the text is, in messages: `scene`.
+    pub(crate) kind: &'static str,
     pub(crate) text: String,
     pub(crate) sources: Vec<Source>,
     stretches: Vec<Stretch>,
 }
 
 impl Patched {
-    pub(crate) fn new(name: String, text: String) -> Self {
+    pub(crate) fn new(kind: &'static str, name: String, text: String) -> Self {
         let stretch = Stretch { length: text.len(), source: 0, origin: 0..text.len() };
         let source = Source { name, text: text.clone(), first_line: 1 };
-        Self { text, sources: vec![source], stretches: vec![stretch] }
+        Self { kind, text, sources: vec![source], stretches: vec![stretch] }
     }
 
     /// Adds a source; the index is its name in marks.
@@ -154,7 +156,7 @@ mod tests {
 
     #[test]
     fn a_place_in_the_patched_text_leads_to_its_source() {
-        let mut patched = Patched::new("file".into(), "(a: 1, b: µ, c: 3)".into());
+        let mut patched = Patched::new("scene", "file".into(), "(a: 1, b: µ, c: 3)".into());
         let text = "b=30 deg".to_owned();
         let argument = patched.add_source(Source { name: "--set".into(), text, first_line: 1 });
         let at = patched.text.find('µ').unwrap();

@@ -31,7 +31,7 @@ pub(crate) fn syntax(patched: &Patched, error: &SpannedError) -> Problem {
         false => at..next_char(text, at),
     };
     Problem {
-        message: "the scene is not RON".into(),
+        message: format!("the {} is not RON", patched.kind),
         marks: vec![patched.mark(range, lowered(&error.code.to_string()))],
         help: syntax_help(text, at, &error.code).map(str::to_owned),
     }
@@ -63,7 +63,8 @@ pub(crate) fn refusal(
 ) -> Problem {
     let text = &patched.text;
     let found = tree.find(text, &path.0);
-    let name = if path.0.is_empty() { "the scene".to_owned() } else { format!("`{path}`") };
+    let name =
+        if path.0.is_empty() { format!("the {}", patched.kind) } else { format!("`{path}`") };
     let place = |label: String, message: String, help: Option<String>| Problem {
         message,
         marks: vec![patched.mark(found.place(text), label)],
@@ -73,7 +74,7 @@ pub(crate) fn refusal(
         Error::NoSuchStructField { expected, found: field, .. } => {
             let mark = found.key.clone().unwrap_or_else(|| found.place(text));
             Problem {
-                message: format!("unknown field `{field}`{}", inside(path)),
+                message: format!("unknown field `{field}`{}", inside(patched, path)),
                 marks: vec![
                     patched.mark(mark, format!("expected {}", any_of(expected.iter().copied()))),
                 ],
@@ -150,12 +151,12 @@ fn kind_expected(code: &Error) -> Option<&'static str> {
 }
 
 /// ` in ..`, naming what the last step of `path` stands in.
-fn inside(path: &ScenePath) -> String {
+fn inside(patched: &Patched, path: &ScenePath) -> String {
     match path.0.split_last() {
         Some((_, parent)) if !parent.is_empty() => {
             format!(" in `{}`", ScenePath(parent.to_vec()))
         }
-        _ => " in the scene".into(),
+        _ => format!(" in the {}", patched.kind),
     }
 }
 

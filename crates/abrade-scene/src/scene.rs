@@ -7,6 +7,7 @@
 mod body;
 mod copies;
 mod geometry;
+mod grain;
 mod hardness;
 mod motion;
 mod run;
@@ -23,6 +24,7 @@ use serde::Deserialize;
 pub use body::{Placement, Rotation, SceneBody};
 pub use copies::Copies;
 pub use geometry::Geometry;
+pub use grain::{Form, Grain};
 pub use hardness::{HardnessMap, Region, RegionBox};
 pub use motion::{Motion, Solution};
 pub use run::{MeshFormat, Moment, Output, Resolve, Run, Stop};

@@ -172,7 +172,7 @@ mod tests {
 )"#;
 
     fn set(argument: &str) -> Result<String, Problem> {
-        let mut patched = Patched::new("scene".into(), SCENE.into());
+        let mut patched = Patched::new("scene", "scene".into(), SCENE.into());
         let tree = spans::parse(SCENE).unwrap();
         apply(&mut patched, &tree, argument).map(|()| patched.text)
     }

@@ -9,8 +9,9 @@ use nalgebra::{Point3, Vector3};
 use thiserror::Error;
 
 use crate::clump::{self, ClumpError, ClumpFile, Format, Given, Source};
+use crate::grain::{GrainSize, MadeGrain};
 use crate::mesh_file::{self, FileTrouble};
-use crate::scene::{ClumpInertia, SceneShape};
+use crate::scene::{ClumpInertia, Grain, SceneShape};
 
 /// Hull coordinates [m] beyond which volumes cannot be held in a number.
 const LARGEST_COORDINATE: f64 = 1e60;
@@ -140,6 +141,14 @@ fn blank(shape: &SceneShape, density: Option<f64>, folder: &Path) -> Result<Blan
                 _ => return Err(SolidTrouble::OneOf("spheres", "file")),
             };
             clumped(&clump, *inertia, density)
+        }
+        SceneShape::Grain { form, diameter, spheres, seed } => {
+            positive("diameter", &[*diameter])?;
+            let grain = Grain { form: form.clone(), spheres: *spheres };
+            let size = GrainSize::Volume(*diameter);
+            let MadeGrain { solid, fit, .. } = grain.made(size, 1.0, *seed, folder)?;
+            let Solid { shape, inertia: unit, centre } = solid;
+            Ok(Blank { shape, unit, centre, own: None, note: fit.map(|fit| fit.note()) })
         }
     }
 }

@@ -48,7 +48,7 @@ fn square_to(v: &Vector3<f64>) -> [Vector3<f64>; 2] {
 }
 
 /// A point of the unit disc, evenly.
-fn disc(generator: &mut Pcg32) -> [f64; 2] {
+pub(crate) fn disc(generator: &mut Pcg32) -> [f64; 2] {
     loop {
         let [a, b]: [f64; 2] = generator.random();
         let point = [2.0 * a - 1.0, 2.0 * b - 1.0];

@@ -15,6 +15,15 @@ pub enum StudyError {
     /// A run could not be made at all.
     #[error(transparent)]
     Run(#[from] RunError),
+    /// A case of an erosion study could not be made.
+    #[error(transparent)]
+    Case(#[from] crate::erosion::CaseError),
+    /// A folder that is to be merged has nothing of the study.
+    #[error("`{}` holds no case of this study, as it stands", folder.display())]
+    NoCases {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// A file could not be written.
     #[error(transparent)]
     Report(#[from] ReportError),

@@ -127,6 +127,14 @@ impl Dimension {
         d.deserialize_seq(Rows::<N>(self))
     }
 
+    /// Reads a list of such numbers.
+    ///
+    /// # Errors
+    /// Not a list, or a number refused as by a single field.
+    pub fn list<'de, D: Deserializer<'de>>(self, d: D) -> Result<Vec<f64>, D::Error> {
+        d.deserialize_seq(List(self))
+    }
+
     /// The message about a unit that does not measure this.
     fn foreign(self, unit: &str) -> String {
         let mut message = format!("`{unit}` does not measure {}; {}", self.name, self.expected());
@@ -272,6 +280,24 @@ impl<'de, const N: usize> Visitor<'de> for Rows<N> {
             rows.push(row);
         }
         Ok(rows)
+    }
+}
+
+struct List(Dimension);
+
+impl<'de> Visitor<'de> for List {
+    type Value = Vec<f64>;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "a list of numbers, each {}", self.0.name)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Self::Value, A::Error> {
+        let mut numbers = Vec::new();
+        while let Some(number) = seq.next_element_seed(self.0)? {
+            numbers.push(number);
+        }
+        Ok(numbers)
     }
 }
 

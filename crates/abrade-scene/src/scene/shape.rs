@@ -5,7 +5,7 @@ use abrade::quantity::{self, Quantity};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::vectors;
+use super::{Form, vectors};
 
 /// Geometry of a body. Whatever the coordinates' origin, the body's frame has its own at the centre
 /// of mass.
@@ -64,6 +64,22 @@ pub enum SceneShape {
         /// Where mass and inertia come from (default `Union`).
         #[serde(default)]
         inertia: ClumpInertia,
+    },
+    /// A grain of which a form and a size are known.
+    Grain {
+        /// Its form.
+        form: Form,
+        /// Diameter of the sphere of the same volume [m].
+        #[serde(deserialize_with = "quantity::length")]
+        #[schemars(with = "Quantity")]
+        diameter: f64,
+        /// Number of spheres, from 1 to 1000, of a clump that stands for a form with faces (default:
+        /// the form itself).
+        #[serde(default)]
+        spheres: Option<u32>,
+        /// Chooses among the grains of a form that is random.
+        #[serde(default)]
+        seed: u64,
     },
 }
 

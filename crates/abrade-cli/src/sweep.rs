@@ -1,0 +1,63 @@
+//! `abrade sweep`.
+
+use std::fmt::Write as _;
+
+use abrade_report::quantity_text::digits;
+use abrade_study::erosion;
+
+use crate::arguments::SweepArguments;
+use crate::erosion::{Opened, open};
+use crate::failure::Failure;
+use crate::say;
+use crate::study::failure;
+
+/// Makes the part of the study that is asked for, or merges the parts.
+pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
+    let opened = open(&arguments.erosion)?;
+    if arguments.list {
+        return list(&opened);
+    }
+    if let Some(folders) = &arguments.merge {
+        for folder in folders {
+            erosion::gather(&opened.file, &opened.beside, folder, &opened.out).map_err(failure)?;
+        }
+        return opened.tell();
+    }
+    let mut cases = opened.file.cases();
+    let all = cases.len();
+    if let Some(case) = arguments.case {
+        if case >= all {
+            let error = anyhow::anyhow!("there is no case {case}: the study has {all}, from 0");
+            return Err(Failure::Input(error));
+        }
+        cases.retain(|other| other.number == case);
+    }
+    if let Some([first, pace]) = arguments.shard {
+        cases.retain(|case| case.number % pace == first);
+    }
+    opened.make(&cases)?;
+    let there = opened.file.cases().iter().filter(|case| opened.has(case)).count();
+    let place = opened.out.display();
+    say::say(&format!("{there} of {all} cases are in {place}\n"))
+}
+
+fn list(opened: &Opened) -> Result<(), Failure> {
+    let mut text = String::new();
+    for case in opened.file.cases() {
+        let there = if opened.has(&case) { "there" } else { "-" };
+        let angle = digits(case.angle.to_degrees());
+        let speed = digits(case.speed);
+        let _ = writeln!(
+            text,
+            "{:>5}  {there:<5}  {angle:>5} deg {speed:>8} m/s  {}",
+            case.number, case.grain
+        );
+    }
+    say::say(&text)
+}
+
+impl Opened {
+    fn has(&self, case: &erosion::Case) -> bool {
+        erosion::is_made(&self.file, &self.beside, case, &self.out)
+    }
+}

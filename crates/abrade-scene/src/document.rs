@@ -1,0 +1,240 @@
+//! A RON file whose values know their places: read, changed by `--set` arguments, and refused where
+//! it is wrong. Scenes are such, and the files of studies.
+
+use std::path::Path;
+
+use abrade::ParameterError;
+use ron::extensions::Extensions;
+use serde::de::DeserializeOwned;
+
+use crate::patched::Patched;
+use crate::problem::{Mark, Problem, SceneError};
+use crate::refusal;
+use crate::set;
+use crate::spans::{self, Kind, Node, ScenePath};
+
+/// A kind of file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FileKind {
+    /// What it is called in messages.
+    pub name: &'static str,
+    /// The version of its form that this program reads.
+    pub version: u32,
+}
+
+/// A file that was read, and what is wrong with it so far.
+#[derive(Debug)]
+pub struct Document<T> {
+    /// What it says.
+    pub value: T,
+    pub(crate) patched: Patched,
+    pub(crate) tree: Node,
+    problems: Vec<Problem>,
+}
+
+impl<T: DeserializeOwned> Document<T> {
+    /// Reads the file at `path` and applies the `sets` (`PATH=VALUE`) in order.
+    ///
+    /// # Errors
+    /// It cannot be read, is not RON, or a word or value does not fit its place.
+    pub fn load(path: &Path, sets: &[String], kind: FileKind) -> Result<Self, SceneError> {
+        let name = path.display().to_string();
+        let read = std::fs::read(path).map_err(|error| error.kind().to_string());
+        let text = read.and_then(|bytes| {
+            String::from_utf8(bytes).map_err(|_| "it is not a text in UTF-8".to_owned())
+        });
+        let text = text.map_err(|reason| {
+            let problem = Problem::unplaced(format!("the {} cannot be read: {reason}", kind.name));
+            SceneError { path: name.clone(), sources: Vec::new(), problems: vec![problem] }
+        })?;
+        Self::read(&name, text, sets, kind)
+    }
+
+    /// [`Document::load`] for a text; `name` serves messages.
+    ///
+    /// # Errors
+    /// As [`Document::load`].
+    pub fn read(
+        name: &str,
+        text: String,
+        sets: &[String],
+        kind: FileKind,
+    ) -> Result<Self, SceneError> {
+        let mut patched = Patched::new(kind.name, name.to_owned(), text);
+        match value_and_tree(&mut patched, sets, kind) {
+            Ok((value, tree)) => {
+                let problems = twice(&patched, &tree);
+                Ok(Self { value, patched, tree, problems })
+            }
+            Err(problems) => Err(refused(patched, problems)),
+        }
+    }
+}
+
+impl<T> Document<T> {
+    /// Notes that the value at `path`, or the nearest one that is written on the way to it, is
+    /// wrong, and what was allowed there.
+    pub fn refuse(&mut self, path: &[&str], message: impl Into<String>, label: impl Into<String>) {
+        let path = ScenePath::of(path.iter().copied());
+        let marks = vec![mark(&self.patched, &self.tree, &path, label)];
+        self.problems.push(Problem { message: message.into(), marks, help: None });
+    }
+
+    /// Notes that a field directly inside `path` is out of range.
+    pub fn out_of_range(&mut self, path: &[&str], error: &ParameterError) {
+        let path: Vec<&str> = path.iter().copied().chain([error.field]).collect();
+        let message = format!("`{}` is out of range", spans::path(&path));
+        self.refuse(&path, message, format!("must be {}", allowed(error)));
+    }
+
+    /// The value, if nothing is wrong with it.
+    ///
+    /// # Errors
+    /// Everything that was noted, in the order of the file.
+    pub fn finish(self) -> Result<T, SceneError> {
+        match self.problems.is_empty() {
+            true => Ok(self.value),
+            false => Err(refused(self.patched, self.problems)),
+        }
+    }
+
+    /// The parts, for a check that notes its problems elsewhere.
+    pub(crate) fn into_parts(self) -> (T, Patched, Node, Vec<Problem>) {
+        (self.value, self.patched, self.tree, self.problems)
+    }
+}
+
+/// What is wrong with a `name` that becomes a folder's.
+pub fn folder_name_fault(name: &str) -> Option<&'static str> {
+    let forbidden = |c: char| matches!(c, '/' | '\\') || c.is_control();
+    let fault = name.trim().is_empty() || name.starts_with('.') || name.contains(forbidden);
+    fault.then_some("must name a folder: not empty, no leading `.`, no `/` or `\\`")
+}
+
+/// The problems of a text in its order.
+pub(crate) fn refused(patched: Patched, mut problems: Vec<Problem>) -> SceneError {
+    problems
+        .sort_by_key(|problem| problem.marks.first().map(|mark| (mark.source, mark.range.start)));
+    SceneError { path: patched.sources[0].name.clone(), sources: patched.sources, problems }
+}
+
+/// The mark of the value at `path`, or of the nearest that is written on the way to it.
+pub(crate) fn mark(
+    patched: &Patched,
+    tree: &Node,
+    path: &ScenePath,
+    label: impl Into<String>,
+) -> Mark {
+    let found = tree.find(&patched.text, &path.0);
+    let range = match (found.depth == path.0.len(), &found.key) {
+        (true, _) | (false, None) => found.place(&patched.text),
+        (false, Some(key)) => key.clone(),
+    };
+    patched.mark(range, label)
+}
+
+/// What was allowed in the place of a value, with an angle's bound as angles are written.
+pub(crate) fn allowed(error: &ParameterError) -> String {
+    error.allowed.replace("1.5707963267948966", "90 deg")
+}
+
+/// The value as written and set, and the tree of its text.
+fn value_and_tree<T: DeserializeOwned>(
+    patched: &mut Patched,
+    sets: &[String],
+    kind: FileKind,
+) -> Result<(T, Node), Vec<Problem>> {
+    let mut tree = tree_of(patched).map_err(|problem| vec![problem])?;
+    let mut problems = Vec::new();
+    for argument in sets {
+        match set::apply(patched, &tree, argument) {
+            Ok(()) => tree = tree_of(patched).map_err(|problem| vec![problem])?,
+            Err(problem) => problems.push(problem),
+        }
+    }
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    check_version(patched, &tree, kind).map_err(|problem| vec![problem])?;
+    let value = deserialise(patched, &tree).map_err(|problem| vec![problem])?;
+    Ok((value, tree))
+}
+
+/// The tree of the text. What is not RON is best said by RON itself.
+fn tree_of(patched: &Patched) -> Result<Node, Problem> {
+    spans::parse(&patched.text).map_err(|trouble| {
+        match options().from_str::<ron::Value>(&patched.text) {
+            Err(error) => refusal::syntax(patched, &error),
+            Ok(_) => {
+                let end = patched.text[trouble.at..].chars().next().map_or(0, char::len_utf8);
+                let label = format!("expected {}", trouble.expected);
+                Problem {
+                    message: format!("the {} is not RON", patched.kind),
+                    marks: vec![patched.mark(trouble.at..trouble.at + end, label)],
+                    help: None,
+                }
+            }
+        }
+    })
+}
+
+/// Looks at the version before anything else: a newer file may hold words of its own.
+fn check_version(patched: &Patched, tree: &Node, kind: FileKind) -> Result<(), Problem> {
+    let path = ScenePath::of(["version"]);
+    let found = tree.find(&patched.text, &path.0);
+    let written = &patched.text[found.node.span.clone()];
+    let version = (found.depth == 1).then(|| written.parse::<u32>().ok()).flatten();
+    let FileKind { name, version: known } = kind;
+    let message = match version {
+        Some(version) if version > known => {
+            format!("the {name} is of version {version}, which is newer than this program")
+        }
+        Some(version) if version < known => format!("there is no version {version} of a {name}"),
+        _ => return Ok(()),
+    };
+    let label = format!("this program reads version {known}");
+    let mark = patched.mark(found.node.span.clone(), label);
+    Err(Problem { message, marks: vec![mark], help: None })
+}
+
+fn deserialise<T: DeserializeOwned>(patched: &Patched, tree: &Node) -> Result<T, Problem> {
+    let text = &patched.text;
+    let mut deserializer = ron::Deserializer::from_str_with_options(text, &options())
+        .map_err(|error| refusal::syntax(patched, &error))?;
+    let value = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
+        let path = refusal::scene_path(error.path());
+        let error = deserializer.span_error(error.into_inner());
+        match path {
+            Some(path) => refusal::refusal(patched, tree, &path, &error),
+            None => refusal::syntax(patched, &error),
+        }
+    })?;
+    deserializer
+        .end()
+        .map_err(|error| refusal::syntax(patched, &deserializer.span_error(error)))?;
+    Ok(value)
+}
+
+fn options() -> ron::Options {
+    ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME)
+}
+
+/// Names that a map gives twice: RON would keep the last one in silence.
+fn twice(patched: &Patched, node: &Node) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    let text = &patched.text;
+    if let Kind::Map { entries, .. } = &node.kind {
+        for (i, entry) in entries.iter().enumerate() {
+            let name = spans::name_of(text, &entry.key);
+            if entries[..i].iter().any(|other| spans::name_of(text, &other.key) == name) {
+                problems.push(Problem {
+                    message: format!("the name `{name}` is given twice"),
+                    marks: vec![patched.mark(entry.key.clone(), "given again")],
+                    help: None,
+                });
+            }
+        }
+    }
+    problems.extend(node.children().flat_map(|child| twice(patched, child)));
+    problems
+}

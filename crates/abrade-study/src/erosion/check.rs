@@ -1,0 +1,118 @@
+//! What can be wrong with a study whose words are right.
+
+use std::path::Path;
+
+use abrade::{ParameterError, SurfaceLaws};
+use abrade_scene::scene::Form;
+use abrade_scene::{Document, FileKind, SceneError, folder_name_fault};
+
+use super::file::{Plate, StudyFile, VERSION};
+
+/// A study without a known fault.
+///
+/// # Errors
+/// Everything that is wrong with the file at `path`, with the `sets` applied.
+pub fn load(path: &Path, sets: &[String]) -> Result<StudyFile, SceneError> {
+    let kind = FileKind { name: "study", version: VERSION };
+    let mut document = Document::<StudyFile>::load(path, sets, kind)?;
+    let folder = path.parent().unwrap_or(Path::new("."));
+    check_target(&mut document);
+    check_grains(&mut document, folder);
+    check_ranges(&mut document);
+    let mut file = document.finish()?;
+    if file.reference.is_none() {
+        let sphere = file.grains.iter().find(|(_, grain)| grain.form == Form::Sphere);
+        file.reference = sphere.map(|(name, _)| name.clone());
+    }
+    Ok(file)
+}
+
+fn check_target(document: &mut Document<StudyFile>) {
+    let target = document.value.target.clone();
+    for error in target.material.check() {
+        document.out_of_range(&["target", "material"], &error);
+    }
+    if let Some(error) = target.density.and_then(|rho| ParameterError::positive("density", rho)) {
+        document.out_of_range(&["target"], &error);
+    }
+    for error in target.removal.check() {
+        document.out_of_range(&["target", "removal"], &error);
+    }
+    let laws = SurfaceLaws {
+        elastic: target.elastic,
+        flow: target.flow,
+        removal: target.removal,
+        ..SurfaceLaws::of(target.material)
+    };
+    // What is out of range was noted above, and has a place of its own.
+    let missing =
+        laws.check().into_iter().find(|error| !matches!(error, abrade::SurfaceError::Parameter(_)));
+    if let Some(error) = missing {
+        document.refuse(&["target"], error.to_string(), "");
+    }
+}
+
+fn check_grains(document: &mut Document<StudyFile>, folder: &Path) {
+    let names: Vec<String> = document.value.grains.keys().cloned().collect();
+    if names.is_empty() {
+        document.refuse(&["grains"], "the study has no grains", "name at least one");
+    }
+    for name in &names {
+        if let Err(error) = document.value.grain(name, 0, folder) {
+            let path = ["grains", name.as_str(), "form"];
+            document.refuse(&path, format!("the grain `{name}`: {error}"), "");
+        }
+    }
+    if let Some(reference) = document.value.reference.clone().filter(|name| !names.contains(name)) {
+        let known = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        let message = format!("there is no grain `{reference}`");
+        document.refuse(&["reference"], message, format!("expected one of {known}"));
+    }
+}
+
+fn check_ranges(document: &mut Document<StudyFile>) {
+    let file = document.value.clone();
+    let (samples, size) = (&file.samples, &file.size);
+    let positive = ParameterError::positive;
+    let mut errors: Vec<(&[&str], Option<ParameterError>)> = vec![
+        (&[], positive("density", file.density)),
+        (&["size"], positive("diameter", size.diameter())),
+        (&["size"], ParameterError::within("spread", size.spread(), 0.0, 1.0)),
+        (&[], ParameterError::within("resolution", file.resolution, 1.0, 1000.0)),
+        (&[], ParameterError::within("accuracy", file.accuracy, 1e-6, 0.1)),
+        (&["samples"], ParameterError::within("least", samples.least.into(), 2.0, 1e6)),
+        (
+            &["samples"],
+            ParameterError::within("most", samples.most.into(), samples.least.into(), 1e6),
+        ),
+        (&["samples"], positive("interval", samples.interval)),
+    ];
+    if let Plate::Worn { width } = file.plate {
+        errors.push((&["plate"], positive("width", width)));
+    }
+    for (path, error) in errors {
+        if let Some(error) = error {
+            document.out_of_range(path, &error);
+        }
+    }
+    for (field, values) in [("speeds", &file.speeds), ("angles", &file.angles)] {
+        if values.is_empty() {
+            document.refuse(&[field], format!("`{field}` is empty"), "give at least one");
+        }
+        for (at, &value) in values.iter().enumerate() {
+            let right = std::f64::consts::FRAC_PI_2 * (1.0 + 1e-12);
+            let fine = value > 0.0 && (field == "speeds" || value <= right);
+            if !fine {
+                let label = match field {
+                    "speeds" => "must be above zero",
+                    _ => "must be above zero and at most 90 deg",
+                };
+                let path = [field, &at.to_string()];
+                document.refuse(&path, format!("`{field}.{at}` is out of range"), label);
+            }
+        }
+    }
+    if let Some(fault) = folder_name_fault(&file.name) {
+        document.refuse(&["name"], "`name` cannot be the name of a folder", fault);
+    }
+}

@@ -1,0 +1,122 @@
+//! Erosion: the impacts of grains of several forms on a plate, with means, intervals and ratios.
+//!
+//! [`load`] reads a study's file. A study is a list of cases ([`StudyFile::cases`]), each of which lies
+//! in a file of its own when it is made; [`make`] makes those that are not there yet, all of them or
+//! some, and [`result`] tells what those that are there come to.
+
+mod case;
+mod check;
+mod descriptors;
+mod file;
+mod impact;
+pub mod quantities;
+mod sample;
+mod silhouette;
+pub mod statistics;
+mod store;
+mod summary;
+mod table;
+
+use std::path::Path;
+
+use abrade_scene::Progress;
+
+pub use case::{Case, CaseError, Made};
+pub use check::load;
+pub use descriptors::Descriptors;
+pub use file::{Plate, Samples, Sequence, Size, StudyFile, Target, VERSION};
+pub use impact::Impact;
+pub use sample::Sample;
+pub use summary::{CaseResult, Erosion, Exponent};
+
+use crate::error::StudyError;
+use store::Store;
+
+/// Makes those of `cases` that are not in the results folder `out` yet; files that the study names lie
+/// `beside` it. Returns false where the user broke it off.
+///
+/// # Errors
+/// A grain or a plate cannot be made, or a file cannot be written.
+pub fn make(
+    file: &StudyFile,
+    beside: &Path,
+    cases: &[Case],
+    out: &Path,
+    progress: &mut dyn Progress,
+) -> Result<bool, StudyError> {
+    let store = Store::new(file, beside, out);
+    for (at, case) in cases.iter().enumerate() {
+        if store.read(case).is_some() {
+            continue;
+        }
+        let mut part = Part { whole: progress, at, of: cases.len() };
+        match case.make(file, beside, &mut part)? {
+            Some(made) => store.write(case, &made)?,
+            None => return Ok(false),
+        }
+    }
+    Ok(true)
+}
+
+/// True when `case` is in the results folder `out`.
+pub fn is_made(file: &StudyFile, beside: &Path, case: &Case, out: &Path) -> bool {
+    Store::new(file, beside, out).read(case).is_some()
+}
+
+/// Takes the cases that are in the results folder `from` over into `out`.
+///
+/// # Errors
+/// It holds no case of this study, or the file system refuses.
+pub fn gather(file: &StudyFile, beside: &Path, from: &Path, out: &Path) -> Result<(), StudyError> {
+    let [from_store, store] = [from, out].map(|folder| Store::new(file, beside, folder));
+    let mut found = 0;
+    for case in file.cases() {
+        if let Some(made) = from_store.read(&case) {
+            found += 1;
+            store.write(&case, &made)?;
+        }
+    }
+    match found {
+        0 => Err(StudyError::NoCases { folder: from.to_owned() }),
+        _ => Ok(()),
+    }
+}
+
+/// What the cases in the results folder `out` come to.
+///
+/// # Errors
+/// A grain cannot be made.
+pub fn result(file: &StudyFile, beside: &Path, out: &Path) -> Result<Erosion, StudyError> {
+    let store = Store::new(file, beside, out);
+    let made =
+        file.cases().into_iter().filter_map(|case| store.read(&case).map(|made| (case, made)));
+    let made: Vec<(Case, Made)> = made.collect();
+    let mut grains = Vec::new();
+    for name in file.grains.keys() {
+        let descriptors = descriptors::describe(file, name, beside).map_err(CaseError::from)?;
+        grains.push((name.clone(), descriptors));
+    }
+    Ok(Erosion::of(file, &made, grains))
+}
+
+/// Writes what a study found into the folder `out`: `cases.csv`, `cases.jsonl`, `grains.csv`.
+///
+/// # Errors
+/// The file system refuses.
+pub fn write(erosion: &Erosion, out: &Path) -> Result<(), StudyError> {
+    Ok(table::write(erosion, out)?)
+}
+
+/// The progress of one case among others.
+struct Part<'a> {
+    whole: &'a mut dyn Progress,
+    at: usize,
+    of: usize,
+}
+
+impl Progress for Part<'_> {
+    fn advance(&mut self, simulated: f64, share: Option<f64>) -> bool {
+        let share = share.map(|share| (self.at as f64 + share) / self.of as f64);
+        self.whole.advance(simulated, share)
+    }
+}

@@ -1,0 +1,173 @@
+//! What a case tells of its impacts: every quantity a ratio of two sums over them.
+
+use super::case::Made;
+use super::impact::Impact;
+use super::statistics::{self, Estimate};
+
+/// A quantity of a case: the sum over all impacts of the one over that of the other.
+pub struct Quantity {
+    /// Name of its column, with the unit.
+    pub name: &'static str,
+    above: fn(&Impact) -> f64,
+    below: fn(&Impact) -> f64,
+}
+
+impl Quantity {
+    /// Its estimate from `impacts`.
+    pub fn of(&self, impacts: &[Impact]) -> Estimate {
+        let rows: Vec<[f64; 2]> =
+            impacts.iter().map(|impact| [(self.above)(impact), (self.below)(impact)]).collect();
+        statistics::estimate(&rows, |sums| sums[0] / sums[1])
+    }
+
+    /// Its value for `case` over that for `other`, both made with the same samples, as far as they go.
+    pub fn ratio(&self, case: &Made, other: &Made) -> Estimate {
+        let rows = self.rows(&[case, other]);
+        statistics::estimate(&rows, |sums| sums[0] / sums[1] / (sums[2] / sums[3]))
+    }
+
+    /// The exponent of speed to which it goes, by least squares of the logarithms over `cases` at these
+    /// `speeds` [m/s], made with the same samples.
+    pub fn exponent(&self, speeds: &[f64], cases: &[&Made]) -> Estimate {
+        statistics::estimate(&self.rows(cases), |sums| {
+            let values = sums.chunks(2).map(|pair| (pair[0] / pair[1]).ln());
+            let points = speeds.iter().map(|v| v.ln()).zip(values).map(<[f64; 2]>::from);
+            slope(&points.collect::<Vec<_>>())
+        })
+    }
+
+    /// A row per sample with both terms of every case; zeros where a case has no result of the sample,
+    /// which leaves it out of that case's sums.
+    fn rows(&self, cases: &[&Made]) -> Vec<Vec<f64>> {
+        let count = cases.iter().map(|made| made.impacts.len()).max().unwrap_or(0);
+        let terms = |made: &&Made, k: usize| match made.impacts.get(k) {
+            Some(Ok(impact)) => [(self.above)(impact), (self.below)(impact)],
+            _ => [0.0; 2],
+        };
+        (0..count).map(|k| cases.iter().flat_map(|made| terms(made, k)).collect()).collect()
+    }
+}
+
+/// Slope of the line through `points` by least squares.
+fn slope(points: &[[f64; 2]]) -> f64 {
+    let mean = |a: usize| points.iter().map(|p| p[a]).sum::<f64>() / points.len() as f64;
+    let [x, y] = [mean(0), mean(1)];
+    let product = |f: &dyn Fn(&[f64; 2]) -> f64| points.iter().map(f).sum::<f64>();
+    product(&|p| (p[0] - x) * (p[1] - y)) / product(&|p| (p[0] - x).powi(2))
+}
+
+/// Cubic millimetres per cubic metre.
+const MM3: f64 = 1e9;
+/// Speed at the rim of a grain, over that of its centre before, below which it counts as not turned.
+const STILL: f64 = 0.02;
+
+/// Displaced volume per mass of grains.
+pub const WEAR: Quantity =
+    Quantity { name: "wear_mm3_per_kg", above: |i| i.wear_volume_m3 * MM3, below: |i| i.mass_kg };
+
+/// Debris per mass of grains.
+pub const REMOVED: Quantity = Quantity {
+    name: "removed_mm3_per_kg",
+    above: |i| i.removed_volume_m3 * MM3,
+    below: |i| i.mass_kg,
+};
+
+/// How deep a grain goes.
+pub const DEPTH: Quantity = Quantity { name: "depth_m", above: |i| i.depth_m, below: one };
+
+/// All of them.
+pub const ALL: [Quantity; 20] = [
+    WEAR,
+    REMOVED,
+    Quantity { name: "wear_volume_m3", above: |i| i.wear_volume_m3, below: one },
+    Quantity { name: "removed_volume_m3", above: |i| i.removed_volume_m3, below: one },
+    Quantity { name: "wear_energy_share", above: |i| i.energy_wear * i.energy_j, below: energy },
+    Quantity {
+        name: "friction_energy_share",
+        above: |i| i.energy_friction * i.energy_j,
+        below: energy,
+    },
+    Quantity {
+        name: "translation_energy_share",
+        above: |i| i.energy_translation * i.energy_j,
+        below: energy,
+    },
+    Quantity {
+        name: "rotation_energy_share",
+        above: |i| i.energy_rotation * i.energy_j,
+        below: energy,
+    },
+    Quantity { name: "other_energy_share", above: |i| i.energy_other * i.energy_j, below: energy },
+    Quantity { name: "lateral_share", above: |i| i.lateral_m3, below: |i| i.wear_volume_m3 },
+    Quantity { name: "chip_share", above: |i| i.chip_m3, below: |i| i.wear_volume_m3 },
+    Quantity { name: "removed_share", above: |i| i.removed_volume_m3, below: |i| i.wear_volume_m3 },
+    DEPTH,
+    Quantity { name: "restitution", above: |i| i.restitution, below: one },
+    Quantity { name: "restitution_normal", above: |i| i.restitution_normal, below: one },
+    Quantity { name: "restitution_tangential", above: |i| i.restitution_tangential, below: one },
+    Quantity { name: "spin_rad_s", above: |i| i.spin_rad_s, below: one },
+    Quantity { name: "forward_share", above: |i| share(i.rim > STILL), below: one },
+    Quantity { name: "backward_share", above: |i| share(i.rim < -STILL), below: one },
+    Quantity { name: "embedded_share", above: |i| share(i.is_embedded), below: one },
+];
+
+fn one(_: &Impact) -> f64 {
+    1.0
+}
+
+fn energy(impact: &Impact) -> f64 {
+    impact.energy_j
+}
+
+fn share(is: bool) -> f64 {
+    f64::from(u8::from(is))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Fails for a slope of something else, or an exponent without its interval.
+    #[test]
+    fn the_exponent_is_that_of_the_law_that_made_the_impacts() {
+        let impact = |speed: f64, k: u32| {
+            let scatter = 1.0 + 0.1 * f64::from(k % 7);
+            Impact {
+                wear_volume_m3: 1e-12 * speed.powf(2.3) * scatter,
+                mass_kg: 1e-8,
+                ..Impact::default()
+            }
+        };
+        let speeds = [20.0, 50.0, 110.0];
+        let made = |speed: f64| Made {
+            pitch: 1e-6,
+            impacts: (0..70).map(|k| Ok(impact(speed, k))).collect(),
+        };
+        let cases = speeds.map(made);
+        let exponent = WEAR.exponent(&speeds, &cases.each_ref());
+        // The same scatter at every speed leaves the exponent alone.
+        assert!((exponent.value - 2.3).abs() < 1e-9 && exponent.half_width < 1e-9, "{exponent:?}");
+    }
+
+    /// Fails for a ratio that drops samples which only one of both has, or whose interval does not see
+    /// that the others are the same: what is common to both cancels.
+    #[test]
+    fn a_ratio_counts_every_sample_and_cancels_what_is_common() {
+        let impact = |k: u32, factor: f64| {
+            let scatter = 1.0 + 0.5 * f64::from(k % 2);
+            Impact { wear_volume_m3: factor * scatter, mass_kg: 1.0, ..Impact::default() }
+        };
+        let made = |count: u32, factor: f64| Made {
+            pitch: 1e-6,
+            impacts: (0..count).map(|k| Ok(impact(k, factor))).collect(),
+        };
+        let (short, long) = (made(100, 1.0), made(400, 3.0));
+        let same = WEAR.ratio(&made(100, 3.0), &short);
+        assert!((same.value - 3.0).abs() < 1e-12 && same.half_width < 1e-12, "{same:?}");
+        let more = WEAR.ratio(&long, &short);
+        // Standard deviation over mean is 0.2; what 300 further samples do not share is left.
+        let rest = 3.0 * 1.96 * 0.2 * (1.0_f64 / 100.0 - 1.0 / 400.0).sqrt();
+        assert!((more.value - 3.0).abs() < 1e-12, "{more:?}");
+        assert!((more.half_width / rest - 1.0).abs() < 0.02, "{more:?} {rest}");
+    }
+}
