@@ -44,6 +44,9 @@ pub(crate) struct Columns {
     /// were collected before it can touch it [m].
     columns: Vec<Column>,
     gaps: Vec<f64>,
+    /// The least of the gaps [m].
+    #[cfg_attr(feature = "state", serde(skip))]
+    least_gap: f64,
     /// Per candidate, the mark on the body's way before which it cannot come to this column [m].
     marks: Vec<f64>,
     /// Where the body was before the last trial, and how long its way to there was [m].
@@ -75,6 +78,7 @@ impl Columns {
             candidates: Candidates::default(),
             columns: Vec::new(),
             gaps: Vec::new(),
+            least_gap: f64::INFINITY,
             marks: Vec::new(),
             stood: (State::at(Point3::origin()), 0.0),
             carried: Vec::new(),
@@ -145,6 +149,7 @@ impl Columns {
             true => 0.0,
             false => gap(&self.swept, slot, column.open_depth(), margin, own(surface, slot)),
         }));
+        self.least_gap = least(&self.gaps);
         self.marks.clear();
         self.marks.resize(slots.len(), 0.0);
         self.stood = (*state, 0.0);
@@ -154,8 +159,7 @@ impl Columns {
     /// How far the body at `state` may move before it can touch a column [m].
     pub(crate) fn room(&self, shape: &Shape, state: &State) -> f64 {
         let slack = self.candidates.slack(shape, state);
-        let least = self.gaps.iter().copied().fold(f64::INFINITY, f64::min);
-        (least - self.candidates.travelled(shape, state)).min(slack).max(0.0)
+        (self.least_gap - self.candidates.travelled(shape, state)).min(slack).max(0.0)
     }
 
     /// Takes every column through a step; commits nothing.
@@ -240,7 +244,7 @@ impl Columns {
             column.squeeze = cut.squeeze;
             if cut.squeeze > 0.0 {
                 // The body may come back to where it was when the gap was found.
-                self.gaps[index] = 0.0;
+                (self.gaps[index], self.least_gap) = (0.0, 0.0);
             }
             for piece in cut.pieces.iter() {
                 let total = share * (piece[1] - piece[0]);
@@ -287,6 +291,10 @@ impl Columns {
     }
 }
 
+fn least(gaps: &[f64]) -> f64 {
+    gaps.iter().copied().fold(f64::INFINITY, f64::min)
+}
+
 /// How far below the place of a column at the first touch the material is its own [m].
 fn own(surface: &Surface, slot: &Slot) -> f64 {
     let reach = surface.reach(slot.id);
@@ -322,7 +330,7 @@ fn gap(swept: &Swept, slot: &Slot, depth: f64, margin: f64, reach: f64) -> f64 {
 
 #[cfg(feature = "state")]
 impl Columns {
-    pub(crate) fn checked(self) -> Result<Self, Fault> {
+    pub(crate) fn checked(mut self) -> Result<Self, Fault> {
         self.law.check()?;
         require(not_negative(self.damping_ratio), "columns are out of range")?;
         self.candidates.check()?;
@@ -332,6 +340,7 @@ impl Columns {
         require(self.gaps.iter().all(|&gap| not_negative(gap)), "a gap is below zero")?;
         let way = not_negative(self.stood.1) && finite(&self.marks);
         require(way, "the way of a body over columns is out of range")?;
+        self.least_gap = least(&self.gaps);
         Ok(self)
     }
 
