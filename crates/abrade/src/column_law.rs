@@ -104,9 +104,20 @@ impl ColumnLaw {
         if squeeze > 0.0 { 0.5 * self.stiffness * area * squeeze * squeeze } else { 0.0 }
     }
 
-    /// One column in one step; None where nothing changes.
+    /// True if faces rub.
+    pub(crate) fn rubs(&self) -> bool {
+        self.price.friction > 0.0
+    }
+
+    /// True if the law asks for the heading.
+    pub(crate) fn heads(&self) -> bool {
+        self.price.shear_hardness.is_some()
+    }
+
+    /// One column in one step; None where nothing changes. `RUBS` and `HEADS`: whether faces rub, and
+    /// whether the heading counts.
     #[inline]
-    pub(crate) fn sweep(
+    pub(crate) fn sweep<const RUBS: bool, const HEADS: bool>(
         &self,
         step: &Step<'_>,
         slot: &Slot,
@@ -131,7 +142,7 @@ impl ColumnLaw {
         if low < 0.0 {
             cut.pieces = column.solid(low.max(-step.own), high);
             for piece in cut.pieces.iter() {
-                self.charge(step, slot, &span, piece, &mut flow, toll);
+                self.charge::<RUBS, HEADS>(step, slot, &span, piece, &mut flow, toll);
             }
         }
         let flows = flow.length > 0.0;
@@ -145,12 +156,14 @@ impl ColumnLaw {
                     over.clamp(0.0, yield_overlap)
                 }
             };
-            self.squeeze(step, slot, &span, [column.squeeze, after], flows, toll);
+            self.squeeze::<RUBS>(step, slot, &span, [column.squeeze, after], flows, toll);
             cut.squeeze = after;
         }
         if flows {
-            cut.lateral = flow.lateral / flow.length;
-            cut.attack = flow.attack / flow.length;
+            if HEADS {
+                cut.lateral = flow.lateral / flow.length;
+                cut.attack = flow.attack / flow.length;
+            }
             toll.flow_area += slot.area / (-span.deep_normal.dot(&slot.n)).max(STEEP);
         }
         let touches = flows || cut.squeeze > 0.0;
@@ -159,7 +172,7 @@ impl ColumnLaw {
     }
 
     /// Charges the removal of the piece between `low` and `high` of a column.
-    fn charge(
+    fn charge<const RUBS: bool, const HEADS: bool>(
         &self,
         step: &Step<'_>,
         slot: &Slot,
@@ -178,19 +191,25 @@ impl ColumnLaw {
                 .swept
                 .entry(&touched, step.reach)
                 .unwrap_or_else(|| blocked_entry(step, span, &arm));
-            let (price, lateral) = self.price.of(&entry, &slot.n, step, &arm);
+            let (price, lateral) = match HEADS {
+                true => self.price.of(&entry, &slot.n, step, &arm),
+                false => (self.price.hardness, 0.0),
+            };
             let energy = price * f64::from(slot.factor) * slot.area * length;
             toll.wear += energy;
-            self.press(step, &entry.normal, &arm, energy / entry.displacement, &mut toll.flow);
+            let force = energy / entry.displacement;
+            self.press::<RUBS>(step, &entry.normal, &arm, force, &mut toll.flow);
             flow.length += length;
-            flow.lateral += lateral * length;
-            flow.attack += entry.normal.dot(&step.heading) * length;
+            if HEADS {
+                flow.lateral += lateral * length;
+                flow.attack += entry.normal.dot(&step.heading) * length;
+            }
         }
     }
 
     /// A force [N] over the step along minus a face normal, with its friction.
     #[inline]
-    fn press(
+    fn press<const RUBS: bool>(
         &self,
         step: &Step<'_>,
         normal: &Vector3<f64>,
@@ -198,9 +217,9 @@ impl ColumnLaw {
         force: f64,
         push: &mut Push,
     ) {
-        let friction = self.price.friction;
         let mut pull = -normal * force;
-        if friction > 0.0 {
+        if RUBS {
+            let friction = self.price.friction;
             let velocity = step.motion.velocity + step.motion.spin.cross(arm);
             let slip = velocity - normal * velocity.dot(normal);
             let speed = slip.norm();
@@ -215,7 +234,7 @@ impl ColumnLaw {
     }
 
     /// The spring below the deep end, compressed from `before` to `after` [m].
-    fn squeeze(
+    fn squeeze<const RUBS: bool>(
         &self,
         step: &Step<'_>,
         slot: &Slot,
@@ -243,7 +262,7 @@ impl ColumnLaw {
         };
         toll.elastic += change;
         toll.stiffness += self.stiffness * slot.area / (cosine * cosine);
-        self.press(step, &span.deep_normal, &arm, force, &mut toll.spring);
+        self.press::<RUBS>(step, &span.deep_normal, &arm, force, &mut toll.spring);
     }
 }
 

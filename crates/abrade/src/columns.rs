@@ -167,9 +167,26 @@ impl Columns {
         &mut self,
         surface: &Surface,
         shape: &Shape,
-        [start, end]: [&State; 2],
+        poses: [&State; 2],
         motion: &Motion,
     ) -> &Toll {
+        let heads = self.law.heads() || surface.laws.removal.asks_attack();
+        match (self.law.rubs(), heads) {
+            (false, false) => self.sweep::<false, false>(surface, shape, poses, motion),
+            (false, true) => self.sweep::<false, true>(surface, shape, poses, motion),
+            (true, false) => self.sweep::<true, false>(surface, shape, poses, motion),
+            (true, true) => self.sweep::<true, true>(surface, shape, poses, motion),
+        }
+        &self.toll
+    }
+
+    fn sweep<const RUBS: bool, const HEADS: bool>(
+        &mut self,
+        surface: &Surface,
+        shape: &Shape,
+        [start, end]: [&State; 2],
+        motion: &Motion,
+    ) {
         self.swept.place(shape, start, end, surface.level());
         let travelled = self.candidates.travelled(shape, end);
         let mut step = Step {
@@ -194,13 +211,13 @@ impl Columns {
                 continue;
             }
             let slot = &self.candidates.slots[index];
-            if slot.n != normal || motion.drag.is_some() {
+            if HEADS && (slot.n != normal || motion.drag.is_some()) {
                 normal = slot.n;
                 step.heading = motion.heading(&(slot.x - step.middle), &normal);
             }
             step.own = own(surface, slot);
             let column = &self.columns[index];
-            match self.law.sweep(&step, slot, column, &mut self.toll) {
+            match self.law.sweep::<RUBS, HEADS>(&step, slot, column, &mut self.toll) {
                 Some(cut) => self.cuts.push(Cut { index: index as u32, ..cut }),
                 None => {
                     let top = slot.x - slot.n * column.open_depth();
@@ -213,7 +230,6 @@ impl Columns {
                 }
             }
         }
-        &self.toll
     }
 
     /// Hands over every spring that the last trial pressed or let go.
@@ -249,7 +265,7 @@ impl Columns {
             for piece in cut.pieces.iter() {
                 let total = share * (piece[1] - piece[0]);
                 let broken = column.dig(piece, share);
-                let debris = total * surface.laws.removal.share(cut.attack) + broken;
+                let debris = total * surface.laws.removal.share(|| cut.attack) + broken;
                 surface.sink(slot.id, total + broken);
                 let worn = &mut surface.gain;
                 worn.lateral += slot.area * total * cut.lateral;

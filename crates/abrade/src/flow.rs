@@ -12,6 +12,9 @@ pub(crate) trait Flow {
     /// as friction, not as wear.
     const FACE_PRESSURE: bool;
 
+    /// True where the body's heading counts.
+    const HEADS: bool;
+
     /// The law of a node whose hardness is `factor` times that of the material.
     fn times(&self, factor: f64) -> Self;
 
@@ -110,6 +113,7 @@ impl<L: LateralGeometry> CapozzaHanley<L> {
 
 impl<L: LateralGeometry> Flow for CapozzaHanley<L> {
     const FACE_PRESSURE: bool = false;
+    const HEADS: bool = true;
 
     #[inline(always)]
     fn times(&self, factor: f64) -> Self {
@@ -240,6 +244,7 @@ pub(crate) struct NormalPressure {
 
 impl Flow for NormalPressure {
     const FACE_PRESSURE: bool = true;
+    const HEADS: bool = false;
 
     #[inline(always)]
     fn times(&self, factor: f64) -> Self {
@@ -281,6 +286,7 @@ mod tests {
     use crate::body::State;
     use crate::clump_query::ClumpQuery;
     use crate::elastic::Foundation;
+    use crate::ground::Flat;
     use crate::node_law::{Motion, resolve};
     use crate::query::{BallQuery, Contactor};
     use crate::shape::{Ball, Piece};
@@ -304,8 +310,6 @@ mod tests {
             n: Vector3::z(),
             area: AREA,
             friction: 0.0,
-            jump: f64::INFINITY,
-            steep: f64::NEG_INFINITY,
             heading: Vector3::zeros(),
             trial_stretch: Vector3::zeros(),
         }
@@ -324,14 +328,14 @@ mod tests {
         let zero = Vector3::zeros();
         let motion = Motion { velocity: -Vector3::z(), spin: zero, drag: None, dt: 0.01 };
         let answer =
-            resolve(&flow, &mut node(&query, Point3::origin()), &Spring::default(), &motion);
+            resolve(Flat, &flow, &mut node(&query, Point3::origin()), &Spring::default(), &motion);
         let spring = answer.expect("a contact").spring;
         assert!((spring.normal_load / AREA - 1.0).abs() < 1e-8);
         assert!((spring.drop.normal - 9e-3).abs() < 1e-10 && spring.drop.lateral == 0.0);
         // At half the way the body cannot have pushed it down by more than it moved itself.
         let motion = Motion { dt: 0.004, ..motion };
         let old = Spring { overlap: 6e-3, normal_load: AREA, ..Spring::default() };
-        let answer = resolve(&flow, &mut node(&query, Point3::origin()), &old, &motion);
+        let answer = resolve(Flat, &flow, &mut node(&query, Point3::origin()), &old, &motion);
         assert_eq!(answer.expect("a contact").spring.drop.normal, 0.004);
     }
 
@@ -384,7 +388,7 @@ mod tests {
             Motion { velocity: Vector3::x(), spin: Vector3::zeros(), drag: None, dt: 1e-2 };
         let old = Spring { overlap: 6e-3, normal_load: AREA, ..Spring::default() };
         let old = Spring { excess: Excess { normal: -1.0, lateral: 1e-3 }, ..old };
-        let spring = resolve(&flow, &mut node, &old, &motion).expect("a contact").spring;
+        let spring = resolve(Flat, &flow, &mut node, &old, &motion).expect("a contact").spring;
         assert!(spring.drop.lateral > 0.0, "{spring:?}");
         assert!(spring.normal_load > -1e-9 * spring.tangential_force, "{spring:?}");
     }
@@ -399,15 +403,15 @@ mod tests {
         let mut query = ClumpQuery::new(&[piece(0.95, 1.0), piece(-0.6, 0.57)], 0.0);
         query.place(&State::at(Point3::origin()));
         let ball = ball(Point3::origin());
-        let NodeStep { elastic, x, n, area, friction, jump, steep, heading, trial_stretch, .. } =
+        let NodeStep { elastic, x, n, area, friction, heading, trial_stretch, .. } =
             node(&ball, Point3::origin());
         let query = &query;
-        let mut node =
-            NodeStep { query, elastic, x, n, area, friction, jump, steep, heading, trial_stretch };
+        let mut node = NodeStep { query, elastic, x, n, area, friction, heading, trial_stretch };
         let motion =
             Motion { velocity: -Vector3::z(), spin: Vector3::zeros(), drag: None, dt: 0.05 };
         let flow = NormalPressure { hardness: 0.1 };
-        let answer = resolve(&flow, &mut node, &Spring::default(), &motion).expect("a contact");
+        let answer =
+            resolve(Flat, &flow, &mut node, &Spring::default(), &motion).expect("a contact");
         // Half-way between the overlaps: 50 mm with the upper ball, 30 mm off the lower one.
         assert!((answer.spring.drop.normal - 0.04).abs() < 1e-9, "{:?}", answer.spring);
         assert!(answer.loaded.cosine > STEEP && answer.spring.normal_load > 0.0);
@@ -430,7 +434,7 @@ mod tests {
             let motion = Motion { velocity, spin: Vector3::zeros(), drag: None, dt };
             let mut node = node(&query, Point3::new(0.15, 0.0, -depth));
             node.heading = Vector3::x();
-            let answer = resolve(&flow, &mut node, &old, &motion);
+            let answer = resolve(Flat, &flow, &mut node, &old, &motion);
             old = answer.map_or_else(Spring::default, |answer| answer.spring);
             depth += old.drop.normal + old.drop.lateral;
         }

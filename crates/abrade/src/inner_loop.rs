@@ -1,5 +1,5 @@
 //! The inner loop of the return mapping: every candidate through one step, one monomorphic loop per
-//! combination of laws, shape and ledger.
+//! combination of laws, shape, ground and books.
 
 use nalgebra::{Isometry3, Vector3};
 
@@ -7,21 +7,19 @@ use crate::candidates::Slot;
 use crate::carried::Grip;
 use crate::elastic::Elastic;
 use crate::flow::Flow;
+use crate::ground::Ground;
 use crate::ledger::Ledger;
 use crate::node_law::{Answer, Drop, Motion, NodeStep, STEEP, Spring, resolve, stored};
 use crate::query::Query;
 
 /// Laws, body and motion of a step.
-pub(crate) struct InnerLoop<'a, E, F, Q> {
+pub(crate) struct InnerLoop<'a, E, F, Q, G> {
     pub elastic: E,
     pub flow: F,
     pub query: &'a Q,
     pub friction: f64,
     pub motion: &'a Motion,
-    /// Yield overlap on a closed surface [m]; infinite on a flat one.
-    pub jump: f64,
-    /// Share of its area that a node stands for.
-    pub share: f64,
+    pub ground: G,
 }
 
 /// The candidates, their springs at the start of a step, and those at its end.
@@ -47,7 +45,6 @@ pub(crate) struct Reaction {
     pub lever_squared: f64,
     /// Nodes that carry force.
     pub touching: usize,
-    pub ledger: Ledger,
 }
 
 impl Reaction {
@@ -56,7 +53,7 @@ impl Reaction {
         Grip { force: self.force, torque: self.torque }
     }
 
-    /// Adds the reaction of another surface, whose frame is `pose`, but for its energies.
+    /// Adds the reaction of another surface, whose frame is `pose`.
     pub(crate) fn add(&mut self, other: &Self, pose: &Isometry3<f64>) {
         self.force += pose * other.force;
         self.torque += pose * other.torque;
@@ -70,16 +67,9 @@ impl Reaction {
     }
 }
 
-impl<E: Elastic, F: Flow, Q: Query> InnerLoop<'_, E, F, Q> {
+impl<E: Elastic, F: Flow, Q: Query, G: Ground> InnerLoop<'_, E, F, Q, G> {
     /// Takes every candidate from its old spring to its new one.
-    pub(crate) fn book(&self, keeps_ledger: bool, columns: Columns<'_>) -> Reaction {
-        match keeps_ledger {
-            true => self.run::<true>(columns),
-            false => self.run::<false>(columns),
-        }
-    }
-
-    fn run<const LEDGER: bool>(&self, (slots, old, new): Columns<'_>) -> Reaction {
+    pub(crate) fn run<B: Books>(&self, (slots, old, new): Columns<'_>, books: &mut B) -> Reaction {
         let mut sum = Reaction::default();
         let mut node = NodeStep {
             query: self.query,
@@ -88,8 +78,6 @@ impl<E: Elastic, F: Flow, Q: Query> InnerLoop<'_, E, F, Q> {
             n: Vector3::zeros(),
             area: 0.0,
             friction: self.friction,
-            jump: self.jump,
-            steep: if self.jump < f64::INFINITY { STEEP } else { f64::NEG_INFINITY },
             heading: Vector3::zeros(),
             trial_stretch: Vector3::zeros(),
         };
@@ -104,30 +92,22 @@ impl<E: Elastic, F: Flow, Q: Query> InnerLoop<'_, E, F, Q> {
                 new.release();
                 continue;
             }
-            if slot.n != node.n || turns {
-                node.n = slot.n;
+            if F::HEADS && (slot.n != node.n || turns) {
                 let arm = if turns { self.query.touch(&slot.x, &slot.n).arm } else { zero };
                 node.heading = self.motion.heading(&arm, &slot.n);
             }
-            (node.x, node.area) = (slot.x, slot.area * self.share);
+            (node.x, node.n, node.area) = (slot.x, slot.n, self.ground.area(slot.area));
             let flow = self.flow.times(f64::from(slot.factor));
-            match resolve(&flow, &mut node, old, self.motion) {
-                Some(answer) => {
+            match resolve(self.ground, &flow, &mut node, old, self.motion) {
+                Some(mut answer) => {
                     sum.take(&answer, &node);
-                    if LEDGER {
-                        sum.ledger.take::<E, F, Q>(&answer, &node, old);
-                    }
+                    books.take(&flow, &mut answer, &node, old);
                     *new = answer.spring;
                 }
                 None => {
                     sum.overlap_change = sum.overlap_change.max(old.overlap);
-                    if LEDGER && old.overlap > 0.0 {
-                        let touch = self.query.touch(&slot.x, &slot.n);
-                        // Let go while pressed: the body has come round to the other side of it.
-                        if touch.overlap > 0.0 {
-                            sum.ledger.history +=
-                                stored(self.elastic, touch.coefficient, old, node.area);
-                        }
+                    if old.overlap > 0.0 {
+                        books.let_go(&node, old);
                     }
                     new.release();
                 }
@@ -161,15 +141,50 @@ impl Reaction {
     }
 }
 
-impl Ledger {
-    /// Books one node's step. Out of line, so that a count of calls shows who pays for it.
+/// Where the energies of nodes are booked.
+pub(crate) trait Books {
+    /// Books one node's step, of whose spring the excess may be left to do.
+    fn take<E: Elastic, F: Flow, Q>(
+        &mut self,
+        flow: &F,
+        answer: &mut Answer,
+        node: &NodeStep<'_, E, Q>,
+        old: &Spring,
+    );
+
+    /// Books a spring that was let go, maybe pressed.
+    fn let_go<E: Elastic, Q: Query>(&mut self, node: &NodeStep<'_, E, Q>, old: &Spring);
+}
+
+/// No ledger is kept.
+impl Books for () {
+    #[inline(always)]
+    fn take<E: Elastic, F: Flow, Q>(
+        &mut self,
+        _: &F,
+        _: &mut Answer,
+        _: &NodeStep<'_, E, Q>,
+        _: &Spring,
+    ) {
+    }
+
+    #[inline(always)]
+    fn let_go<E: Elastic, Q: Query>(&mut self, _: &NodeStep<'_, E, Q>, _: &Spring) {}
+}
+
+impl Books for Ledger {
+    // Out of line, so that a count of calls shows who pays for it.
     #[inline(never)]
     fn take<E: Elastic, F: Flow, Q>(
         &mut self,
-        answer: &Answer,
+        flow: &F,
+        answer: &mut Answer,
         node: &NodeStep<'_, E, Q>,
         old: &Spring,
     ) {
+        if F::FACE_PRESSURE {
+            answer.spring.excess = flow.excess(node.area, &answer.loaded);
+        }
         let Answer { spring, loaded: k, .. } = answer;
         let coefficient = k.touch.coefficient;
         let stiffness =
@@ -197,6 +212,14 @@ impl Ledger {
         }
         if !E::CONSERVATIVE && old.overlap > 0.0 {
             self.history -= 0.5 * (now - stiffness(old.overlap)) * old.stretch.norm_squared();
+        }
+    }
+
+    fn let_go<E: Elastic, Q: Query>(&mut self, node: &NodeStep<'_, E, Q>, old: &Spring) {
+        let touch = node.query.touch(&node.x, &node.n);
+        // Let go while pressed: the body has come round to the other side of it.
+        if touch.overlap > 0.0 {
+            self.history += stored(node.elastic, touch.coefficient, old, node.area);
         }
     }
 }

@@ -84,6 +84,9 @@ pub(crate) struct Integrator {
     /// Work of loads since the first touch, whatever its sign [J].
     pub(crate) supplied: f64,
     ledger: Ledger,
+    /// Energies that springs booked in the last trial, if they are kept.
+    #[cfg_attr(feature = "state", serde(skip))]
+    pub(crate) booked: Ledger,
 }
 
 impl Integrator {
@@ -146,6 +149,7 @@ impl Integrator {
             short: 0.0,
             supplied: 0.0,
             ledger: Ledger::default(),
+            booked: Ledger::default(),
         })
     }
 
@@ -440,8 +444,8 @@ impl Integrator {
     }
 
     /// Books a step of a led body, in which the lead did `work` [J].
-    pub(crate) fn book_lead(&mut self, elastic: f64, work: f64, springs: Ledger, toll: &Toll) {
-        let ledger = &mut self.ledger;
+    pub(crate) fn book_lead(&mut self, elastic: f64, work: f64, toll: &Toll) {
+        let (ledger, springs) = (&mut self.ledger, &self.booked);
         ledger.elastic = elastic;
         ledger.external_work += work;
         ledger.friction += springs.friction + toll.flow.friction + toll.spring.friction;

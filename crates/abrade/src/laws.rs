@@ -119,12 +119,17 @@ impl ElasticLaw {
 }
 
 impl Removal {
+    /// True if the share depends on the angle of attack.
+    pub(crate) fn asks_attack(&self) -> bool {
+        matches!(self, Self::AttackAngle { .. })
+    }
+
     /// Share of a drop that becomes debris; `attack` is the sine of the face's angle of attack.
-    pub(crate) fn share(&self, attack: f64) -> f64 {
+    pub(crate) fn share(&self, attack: impl FnOnce() -> f64) -> f64 {
         match self {
             Self::All => 1.0,
             Self::Fraction { of } => *of,
-            Self::AttackAngle { critical } => f64::from(u8::from(attack >= critical.sin())),
+            Self::AttackAngle { critical } => f64::from(u8::from(attack() >= critical.sin())),
         }
     }
 

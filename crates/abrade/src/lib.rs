@@ -28,6 +28,7 @@ mod facets;
 mod flight;
 mod flow;
 mod grid;
+mod ground;
 mod hardness;
 mod hull;
 mod inner_loop;

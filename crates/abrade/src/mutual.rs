@@ -19,6 +19,7 @@ use crate::error::PhysicsError;
 use crate::extent::{bounds, clearance};
 use crate::inner_loop::Reaction;
 use crate::laws::{ElasticLaw, FlowLaw, Lateral};
+use crate::ledger::Ledger;
 use crate::node_law::Motion;
 use crate::patch::Patch;
 use crate::shape::Shape;
@@ -229,7 +230,6 @@ impl Mutual {
             let seat = local.pose() * skin.pose;
             let motion = turned_round(motion, local, &seat);
             let reaction = back.trial(skin.surface.laws(), &striker(&seat), &motion);
-            sum.ledger += reaction.ledger;
             sum.add(&on_body(reaction, local, &seat, reach), &Isometry3::identity());
         }
         let [forth, back] =
@@ -237,6 +237,14 @@ impl Mutual {
         self.touches = sum.touching > 0;
         self.forth.iter_mut().for_each(|patch| patch.add_load(back));
         self.back.iter_mut().for_each(|patch| patch.add_load(forth));
+        sum
+    }
+
+    /// Energies of the last trial; zeros unless they are kept.
+    pub(crate) fn ledger(&self) -> Ledger {
+        let mut patches = self.patches().map(Patch::ledger);
+        let mut sum = patches.next().unwrap_or_default();
+        patches.for_each(|ledger| sum += ledger);
         sum
     }
 

@@ -8,6 +8,7 @@ use nalgebra::{Point3, Vector3};
 
 use crate::elastic::Elastic;
 use crate::flow::Flow;
+use crate::ground::Ground;
 use crate::query::{Query, Touch};
 #[cfg(feature = "state")]
 use crate::state::finite;
@@ -25,14 +26,12 @@ pub(crate) struct Spring {
     pub overlap: f64,
     /// |T| [N].
     pub tangential_force: f64,
-    /// Of a law with two gates.
+    /// Of a law with two gates; of another if a ledger is kept.
     pub excess: Excess,
     /// Force along minus the node's normal [N].
     pub normal_load: f64,
     /// Drops of the step [m].
     pub drop: Drop,
-    /// Sine of the angle at which the face attacks.
-    pub attack: f64,
 }
 
 impl Spring {
@@ -62,7 +61,7 @@ pub(crate) struct Drop {
 }
 
 /// The body's motion over the step, at mid-step, in the surface's frame.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Motion {
     /// Of the centre of mass over the material of the surface, were it so large.
     pub velocity: Vector3<f64>,
@@ -104,11 +103,8 @@ pub(crate) struct NodeStep<'a, E, Q> {
     pub n: Vector3<f64>,
     pub area: f64,
     pub friction: f64,
-    /// On a closed surface a node is met from outside or not at all: with an overlap that the body
-    /// made in this step, to `jump` [m], and a face that looks at it, by more than `steep`.
-    pub jump: f64,
-    pub steep: f64,
-    /// Unit tangential direction of the body's motion; zero at rest.
+    /// Unit tangential direction of the body's motion; zero at rest, and for a law that does not
+    /// ask for it.
     pub heading: Vector3<f64>,
     /// Tangential stretch before the drop [m].
     pub trial_stretch: Vector3<f64>,
@@ -269,6 +265,7 @@ pub(crate) struct Answer {
 /// Takes a node through one step; None when it is out of contact at the end.
 #[inline(always)]
 pub(crate) fn resolve<E: Elastic, Q: Query, F: Flow>(
+    ground: impl Ground,
     flow: &F,
     node: &mut NodeStep<'_, E, Q>,
     old: &Spring,
@@ -283,8 +280,8 @@ pub(crate) fn resolve<E: Elastic, Q: Query, F: Flow>(
     let turning = motion.spin.cross(&trial.arm);
     let step = (motion.velocity + turning) * motion.dt;
     let approach = m.dot(&step);
-    let missed = !was_in_contact && trial.overlap > approach.max(0.0) + node.jump;
-    if missed || -m.dot(&node.n) <= node.steep {
+    let foreseen = if was_in_contact { f64::INFINITY } else { approach.max(0.0) };
+    if ground.misses(trial.overlap, foreseen, -m.dot(&node.n)) {
         return None;
     }
     // Share of the step spent in contact.
@@ -308,10 +305,12 @@ pub(crate) fn resolve<E: Elastic, Q: Query, F: Flow>(
         stretch: loaded.stretch,
         overlap: loaded.touch.overlap.max(f64::MIN_POSITIVE),
         tangential_force: loaded.tangential_force,
-        excess: flow.excess(node.area, &loaded),
+        excess: match F::FACE_PRESSURE {
+            true => Excess::default(),
+            false => flow.excess(node.area, &loaded),
+        },
         normal_load: loaded.normal_load,
         drop,
-        attack: m.dot(&node.heading),
     };
     let overlap_change = match was_in_contact {
         true => (spring.overlap - old.overlap).abs(),
@@ -339,9 +338,9 @@ fn transport(stretch: &Vector3<f64>, m: &Vector3<f64>) -> Vector3<f64> {
 #[cfg(feature = "state")]
 impl Spring {
     pub(crate) fn is_finite(&self) -> bool {
-        let Self { overlap, tangential_force, excess, normal_load, attack, .. } = self;
+        let Self { overlap, tangential_force, excess, normal_load, .. } = self;
         let Drop { normal, lateral } = &self.drop;
-        let numbers = [overlap, tangential_force, normal_load, attack, normal, lateral];
+        let numbers = [overlap, tangential_force, normal_load, normal, lateral];
         let numbers = numbers.into_iter().chain([&excess.normal, &excess.lateral]);
         finite(numbers.chain(self.stretch.iter())) && *overlap >= 0.0
     }

@@ -29,6 +29,9 @@ pub(crate) struct Touch {
 
 /// A body at one pose, asked about nodes in the surface's frame.
 pub(crate) trait Query {
+    /// True for a lone ball.
+    const IS_BALL: bool = false;
+
     /// The touch of the node at `x` with outward normal `n`.
     fn touch(&self, x: &Point3<f64>, n: &Vector3<f64>) -> Touch;
 
@@ -106,6 +109,8 @@ impl BallQuery {
 }
 
 impl Query for BallQuery {
+    const IS_BALL: bool = true;
+
     #[inline(always)]
     fn touch(&self, x: &Point3<f64>, n: &Vector3<f64>) -> Touch {
         let to_node = x - self.centre;

@@ -206,6 +206,9 @@ impl Integrator {
         };
         let reach = (velocity.norm() + spin.norm() * body.shape.bounding_radius()) * dt;
         let keeps_ledger = self.keeps_ledger();
+        if keeps_ledger {
+            self.booked = Ledger::default();
+        }
         for (i, (contact, placed)) in self.contacts.iter_mut().zip(surfaces).enumerate() {
             let ride = self.rides.get(i).and_then(Option::as_ref);
             let pose = ride.map_or(placed.pose, |ride| ride.pose);
@@ -229,11 +232,11 @@ impl Integrator {
                 Contact::Springs(patch) => {
                     let reaction = patch.trial(placed.surface.laws(), &end, &motion);
                     trial.springs.add(reaction, &pose);
-                    if keeps_ledger {
-                        trial.springs.ledger += reaction.ledger;
-                    }
                     if ride.is_some() {
                         self.answers[i].springs = reaction.grip().turned(&pose);
+                    }
+                    if keeps_ledger {
+                        self.booked += patch.ledger();
                     }
                 }
                 Contact::Mutual(mutual) => {
@@ -241,7 +244,7 @@ impl Integrator {
                     let reaction = mutual.trial(placed, &end, &motion, levers);
                     trial.springs.add(&reaction, &pose);
                     if keeps_ledger {
-                        trial.springs.ledger += reaction.ledger;
+                        self.booked += mutual.ledger();
                     }
                     if ride.is_some() {
                         self.answers[i].springs = reaction.grip().turned(&pose);
@@ -406,10 +409,10 @@ impl Integrator {
         let external_work = self.hold_on(body, surfaces, &state, dt);
         let ledger = self.keeps_ledger().then(|| Ledger {
             elastic,
-            friction: springs.ledger.friction + toll.spring.friction + flow_friction,
+            friction: self.booked.friction + toll.spring.friction + flow_friction,
             damping: half.map_or(0.0, |_| self.damping.dissipated),
-            wear: springs.ledger.wear + toll.wear * share,
-            history: springs.ledger.history + toll.lost,
+            wear: self.booked.wear + toll.wear * share,
+            history: self.booked.history + toll.lost,
             external_work,
             ..Ledger::default()
         });
@@ -426,7 +429,7 @@ impl Integrator {
         trial: &Trial,
         share: f64,
     ) -> (f64, Vector3<f64>) {
-        let mut elastic = trial.springs.ledger.elastic;
+        let mut elastic = self.booked.elastic;
         let mut push = trial.springs.push;
         if trial.flight {
             return (elastic, push);
@@ -464,7 +467,7 @@ impl Integrator {
             let (force, torque) = (self.pull.force + force, self.pull.torque + torque);
             let turned = self.dynamics.work(&torque, &trial.turn);
             let work = -0.5 * (force.dot(&trial.shift) + turned);
-            self.book_lead(elastic, work, trial.springs.ledger, &trial.toll);
+            self.book_lead(elastic, work, &trial.toll);
         }
         body.state = State { velocity, spin, ..trial.state };
         self.pull = Pull {

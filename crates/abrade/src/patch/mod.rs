@@ -4,26 +4,27 @@
 mod dashpots;
 #[cfg(feature = "bench")]
 mod recorded;
+mod round;
 mod two;
-
-use std::marker::PhantomData;
 
 use nalgebra::Vector3;
 
 use crate::body::State;
 use crate::candidates::{Candidates, Slot};
 use crate::damping::damping_ratio;
-use crate::elastic::{Elastic, Foundation, HertzNodes, Smooth, coefficient};
+use crate::elastic::{Elastic, Foundation, HertzNodes, coefficient};
 use crate::flight::time_to_close;
-use crate::flow::{CapozzaHanley, Eq5, Flow, NormalPressure, Projected};
-use crate::inner_loop::{InnerLoop, Reaction};
-use crate::laws::{ElasticLaw, FlowLaw, Lateral};
+use crate::ground::{Closed, Flat};
+use crate::inner_loop::Reaction;
+use crate::laws::ElasticLaw;
+use crate::ledger::Ledger;
 use crate::node_law::{Motion, Spring, stored};
-use crate::query::{BodyQuery, Contactor, Query};
+use crate::query::{BodyQuery, Contactor, Query, Touch};
 use crate::shape::Shape;
 #[cfg(feature = "state")]
 use crate::state::{Fault, not_negative, positive, require};
 use crate::surface::{Surface, SurfaceLaws};
+use round::Round;
 
 /// Springs between one body and one surface.
 #[derive(Clone, Debug)]
@@ -52,9 +53,14 @@ pub(crate) struct Patch {
     /// Energy of springs under nodes that were used up, to be booked with the next step [J].
     #[cfg_attr(feature = "state", serde(skip))]
     lost: f64,
-    /// Of the last trial.
+    /// Of the last trial: what the nodes did to the body, how it moved, and the energies if they are
+    /// kept.
     #[cfg_attr(feature = "state", serde(skip))]
     reaction: Reaction,
+    #[cfg_attr(feature = "state", serde(skip))]
+    motion: Motion,
+    #[cfg_attr(feature = "state", serde(skip))]
+    ledger: Ledger,
 }
 
 impl Patch {
@@ -95,6 +101,8 @@ impl Patch {
             carried: Vec::new(),
             lost: 0.0,
             reaction: Reaction::default(),
+            motion: Motion::default(),
+            ledger: Ledger::default(),
         }
     }
 
@@ -154,11 +162,7 @@ impl Patch {
         if !self.keeps_ledger {
             return 0.0;
         }
-        let touch = match &self.query {
-            BodyQuery::Ball(query) => query.touch(&slot.x, &slot.n),
-            BodyQuery::Clump(query) => query.touch(&slot.x, &slot.n),
-            BodyQuery::Mesh(query) => query.touch(&slot.x, &slot.n),
-        };
+        let touch = self.touch(slot);
         let (poisson, coefficient) = (laws.material.poisson, touch.coefficient);
         let area = slot.area * self.share;
         match laws.elastic {
@@ -221,81 +225,45 @@ impl Patch {
     /// Takes every candidate through a step that ends at `end`; commits nothing.
     pub(crate) fn trial(&mut self, laws: &SurfaceLaws, end: &State, motion: &Motion) -> &Reaction {
         self.query.place(end);
-        let poisson = laws.material.poisson;
-        let mut reaction = match laws.elastic {
-            ElasticLaw::HertzNodes { .. } => {
-                self.with_springs(HertzNodes::new(poisson), laws, motion)
+        let Self { share, yield_overlap, candidates, old, new, ledger, .. } = self;
+        let columns = (&candidates.slots[..], &old[..], &mut new[..]);
+        let round = Round { laws, motion, columns, ledger: self.keeps_ledger.then_some(ledger) };
+        let solid = Closed::solid(*yield_overlap, *share);
+        let mut reaction = match (&self.query, self.is_closed) {
+            (BodyQuery::Ball(query), false) => round.against(query, Flat),
+            (BodyQuery::Ball(query), true) => round.against(query, solid),
+            (BodyQuery::Clump(query), false) => round.against(query, Flat),
+            (BodyQuery::Clump(query), true) => round.against(query, solid),
+            (BodyQuery::Mesh(query), false) => {
+                round.on_foundation(query.as_ref(), Closed::plate(*share))
             }
-            _ => self.with_springs(Foundation::new(poisson), laws, motion),
+            (BodyQuery::Mesh(query), true) => round.on_foundation(query.as_ref(), solid),
         };
         reaction.overlap_change /= self.yield_overlap;
-        reaction.ledger.history += self.lost;
         self.reaction = reaction;
+        self.motion = *motion;
         &self.reaction
     }
 
-    fn with_springs<E: Elastic>(
-        &mut self,
-        elastic: E,
-        laws: &SurfaceLaws,
-        motion: &Motion,
-    ) -> Reaction {
-        match laws.material.friction > 0.0 {
-            true => self.with_elastic(elastic, laws, motion),
-            false => self.with_elastic(Smooth(elastic), laws, motion),
-        }
+    /// Energies of the last trial; zeros unless they are kept.
+    pub(crate) fn ledger(&self) -> Ledger {
+        Ledger { history: self.ledger.history + self.lost, ..self.ledger }
     }
 
-    fn with_elastic<E: Elastic>(
-        &mut self,
-        elastic: E,
-        laws: &SurfaceLaws,
-        motion: &Motion,
-    ) -> Reaction {
-        let hardness = laws.material.hardness;
-        let shear_hardness = laws.material.shear_ratio * hardness;
-        let friction = laws.material.friction;
-        match laws.flow {
-            FlowLaw::CapozzaHanley { lateral: Lateral::Projected } => {
-                let flow =
-                    CapozzaHanley::<Projected> { hardness, shear_hardness, lateral: PhantomData };
-                self.with_flow(elastic, flow, friction, motion)
-            }
-            FlowLaw::CapozzaHanley { lateral: Lateral::Eq5 } => {
-                let flow = CapozzaHanley::<Eq5> { hardness, shear_hardness, lateral: PhantomData };
-                self.with_flow(elastic, flow, friction, motion)
-            }
-            FlowLaw::NormalPressure {} => {
-                self.with_flow(elastic, NormalPressure { hardness }, friction, motion)
-            }
-        }
+    /// Sine of the angle at which the face attacked a node in the last trial, which is not yet
+    /// committed.
+    fn attack(&self, slot: &Slot) -> f64 {
+        let touch = self.touch(slot);
+        // On a plate that does not turn the heading is the same everywhere.
+        let arm = if self.motion.drag.is_some() { touch.arm } else { Vector3::zeros() };
+        touch.contact_normal.dot(&self.motion.heading(&arm, &slot.n))
     }
 
-    fn with_flow<E: Elastic, F: Flow>(
-        &mut self,
-        elastic: E,
-        flow: F,
-        friction: f64,
-        motion: &Motion,
-    ) -> Reaction {
-        let jump = if self.is_closed { self.yield_overlap } else { f64::INFINITY };
-        let Self { share, keeps_ledger, candidates, old, new, .. } = self;
-        let columns = (&candidates.slots[..], &old[..], &mut new[..]);
-        let (share, keeps_ledger) = (*share, *keeps_ledger);
+    fn touch(&self, slot: &Slot) -> Touch {
         match &self.query {
-            BodyQuery::Ball(query) => {
-                InnerLoop { elastic, flow, query, friction, motion, jump, share }
-                    .book(keeps_ledger, columns)
-            }
-            BodyQuery::Clump(query) => {
-                InnerLoop { elastic, flow, query, friction, motion, jump, share }
-                    .book(keeps_ledger, columns)
-            }
-            BodyQuery::Mesh(query) => {
-                let query = query.as_ref();
-                InnerLoop { elastic, flow, query, friction, motion, jump, share }
-                    .book(keeps_ledger, columns)
-            }
+            BodyQuery::Ball(query) => query.touch(&slot.x, &slot.n),
+            BodyQuery::Clump(query) => query.touch(&slot.x, &slot.n),
+            BodyQuery::Mesh(query) => query.touch(&slot.x, &slot.n),
         }
     }
 
@@ -318,17 +286,21 @@ impl Patch {
     /// Makes the last trial the state: nodes sink, springs step on.
     pub(crate) fn commit(&mut self, surface: &mut Surface) {
         let part = self.share * self.own;
-        for (slot, spring) in self.candidates.slots.iter_mut().zip(&self.new) {
-            let Spring { drop, attack, .. } = *spring;
-            let [normal, lateral] = [drop.normal, drop.lateral].map(|drop| part * drop);
-            let total = normal + lateral;
-            if spring.overlap > 0.0 && total > 0.0 {
+        for (i, spring) in self.new.iter().enumerate() {
+            let whole = spring.drop.normal + spring.drop.lateral;
+            if spring.overlap > 0.0 && whole > 0.0 {
+                let slot = &self.candidates.slots[i];
+                let removed = surface.laws.removal.share(|| self.attack(slot));
+                let slot = &mut self.candidates.slots[i];
                 // In the contact a node stands for both sides: it goes all the way.
-                slot.x -= slot.n * (drop.normal + drop.lateral);
+                slot.x -= slot.n * whole;
+                let [normal, lateral] =
+                    [spring.drop.normal, spring.drop.lateral].map(|drop| part * drop);
+                let total = normal + lateral;
                 surface.sink(slot.id, total);
                 surface.gain.normal += slot.area * normal;
                 surface.gain.lateral += slot.area * lateral;
-                surface.gain.removed += slot.area * total * surface.laws.removal.share(attack);
+                surface.gain.removed += slot.area * total * removed;
             }
         }
         std::mem::swap(&mut self.old, &mut self.new);

@@ -59,12 +59,13 @@ impl Patch {
     pub(crate) fn hand_over(&self, other: &mut Surface) {
         let BodyQuery::Mesh(query) = &self.query else { return };
         for (slot, spring) in self.candidates.slots.iter().zip(&self.new) {
-            let Spring { drop, attack, .. } = *spring;
+            let Spring { drop, .. } = *spring;
             let part = self.share * self.own * slot.area;
             if spring.overlap <= 0.0 || drop.normal + drop.lateral <= 0.0 {
                 continue;
             }
             let Some((corners, weights)) = query.seat(&slot.x) else { continue };
+            let removed = other.laws.removal.share(|| self.attack(slot));
             for (corner, weight) in corners.into_iter().zip(weights) {
                 let area = other.nodes().rest_area[corner as usize];
                 let [normal, lateral] = [drop.normal, drop.lateral].map(|d| part * weight * d);
@@ -72,7 +73,7 @@ impl Patch {
                 other.sink(corner, total / area);
                 other.gain.normal += normal;
                 other.gain.lateral += lateral;
-                other.gain.removed += total * other.laws.removal.share(attack);
+                other.gain.removed += total * removed;
             }
         }
     }
