@@ -56,7 +56,7 @@ impl Opened {
     /// Writes the tables of the cases that are there, and shows them.
     pub(crate) fn tell(&self) -> Result<(), Failure> {
         let result = erosion::result(&self.file, &self.beside, &self.out).map_err(failure)?;
-        erosion::write(&result, &self.out).map_err(failure)?;
+        erosion::write(&result, &self.beside, &self.out).map_err(failure)?;
         let place = self.out.display();
         say::say(&format!(
             "{}\nreport.html, cases.csv and grains.csv are in {place}\n",

@@ -1,4 +1,6 @@
-//! A chart of curves on logarithmic axes, as PNG.
+//! A chart of curves, on linear or logarithmic axes, as PNG.
+
+mod axis;
 
 use std::path::Path;
 
@@ -6,7 +8,9 @@ use crate::atomic;
 use crate::error::ReportError;
 use crate::picture::canvas::{Align, Canvas, Rect, Text};
 use crate::picture::colour::{INK, Rgb, SOFT, UNTOUCHED};
-use crate::units::tick_text;
+
+use axis::Range;
+pub use axis::{Axis, Scale};
 
 /// A chart.
 #[derive(Clone, Copy, Debug)]
@@ -15,21 +19,25 @@ pub struct Chart<'a> {
     pub title: &'a str,
     /// A line below it.
     pub caption: &'a str,
-    /// What the axes measure, with their units.
-    pub x: &'a str,
-    /// As `x`.
-    pub y: &'a str,
-    /// The curves; points that are not above zero are left out.
+    /// The axis along the lower side.
+    pub x: Axis<'a>,
+    /// The axis along the left side.
+    pub y: Axis<'a>,
+    /// The curves; points that an axis cannot show are left out.
     pub series: &'a [Series],
 }
 
 /// A curve.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
     /// What the legend says.
     pub name: String,
     /// Its points, in the order in which they are joined.
     pub points: Vec<[f64; 2]>,
+    /// Half lengths of the bars at the points, upwards and downwards; empty without bars.
+    pub bars: Vec<f64>,
+    /// Drawn thin and without dots: a formula.
+    pub is_formula: bool,
 }
 
 /// Size of a chart [pixels].
@@ -51,39 +59,6 @@ const COLOURS: [Rgb; 8] = [
     [150, 120, 60],
 ];
 
-/// A logarithmic axis, its ends whole powers of ten.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Decades {
-    low: i32,
-    high: i32,
-}
-
-impl Decades {
-    /// Around `values`, at least one decade.
-    fn around(values: impl Iterator<Item = f64>) -> Self {
-        let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
-            [low.min(value), high.max(value)]
-        });
-        if low > high {
-            return Self { low: 0, high: 1 };
-        }
-        let low = (low.log10() + 1e-9).floor() as i32;
-        let high = (high.log10() - 1e-9).ceil() as i32;
-        Self { low, high: high.max(low + 1) }
-    }
-
-    /// Where `value` stands, as a share of the axis.
-    fn share(self, value: f64) -> f64 {
-        (value.log10() - f64::from(self.low)) / f64::from(self.high - self.low)
-    }
-
-    /// Its powers of ten, not more than about ten of them.
-    fn ticks(self) -> impl Iterator<Item = i32> {
-        let pace = (self.high - self.low) / 10 + 1;
-        (self.low..=self.high).step_by(pace as usize)
-    }
-}
-
 impl Chart<'_> {
     /// The chart as the bytes of a PNG file.
     ///
@@ -96,11 +71,18 @@ impl Chart<'_> {
         canvas.text([PLOT.left, 40.0], &title, look);
         let small = Text { size: 22.0, bold: false, colour: SOFT, ..look };
         canvas.text([PLOT.left, 87.0], self.caption, small);
-        let points = || self.series.iter().flat_map(drawn);
-        let axes = [0, 1].map(|axis| Decades::around(points().map(|point| point[axis])));
-        self.grid(&mut canvas, axes)?;
+        let values = |axis: usize| {
+            self.series.iter().flat_map(move |series| self.drawn(series).map(move |(p, _)| p[axis]))
+        };
+        let ends = self
+            .series
+            .iter()
+            .flat_map(|series| self.drawn(series).flat_map(|([_, y], bar)| [y - bar, y + bar]));
+        let x = self.x.range(values(0));
+        let y = self.y.range(ends);
+        self.grid(&mut canvas, x, y)?;
         for (at, series) in self.series.iter().enumerate() {
-            self.curve(&mut canvas, axes, at, series)?;
+            self.curve(&mut canvas, [x, y], at, series)?;
         }
         canvas.to_png()
     }
@@ -113,90 +95,85 @@ impl Chart<'_> {
         atomic::write(path, &self.to_png()?)
     }
 
-    fn grid(&self, canvas: &mut Canvas, [x, y]: [Decades; 2]) -> Result<(), ReportError> {
-        for power in x.ticks() {
-            let at = PLOT.left + x.share(10f64.powi(power)) * PLOT.width();
+    fn grid(&self, canvas: &mut Canvas, x: Range, y: Range) -> Result<(), ReportError> {
+        for (value, label) in x.ticks(PLOT.width()) {
+            let at = PLOT.left + x.share(value) * PLOT.width();
             canvas.line(&[[at, PLOT.top], [at, PLOT.bottom]], UNTOUCHED, 1.0)?;
-            power_of_ten(canvas, [at + 12.0, PLOT.bottom + 26.0], power);
+            label.write(canvas, [at, PLOT.bottom + 26.0], Align::Centre);
         }
-        for power in y.ticks() {
-            let at = PLOT.bottom - y.share(10f64.powi(power)) * PLOT.height();
+        for (value, label) in y.ticks(PLOT.height()) {
+            let at = PLOT.bottom - y.share(value) * PLOT.height();
             canvas.line(&[[PLOT.left, at], [PLOT.right, at]], UNTOUCHED, 1.0)?;
-            power_of_ten(canvas, [PLOT.left - 36.0, at], power);
+            label.write(canvas, [PLOT.left - 13.0, at], Align::Right);
         }
         canvas.frame(&PLOT, INK)?;
         let middle = [(PLOT.left + PLOT.right) / 2.0, (PLOT.top + PLOT.bottom) / 2.0];
-        canvas.text([middle[0], PLOT.bottom + 62.0], self.x, Text::default());
+        canvas.text([middle[0], PLOT.bottom + 62.0], self.x.name, Text::default());
         let upright = Text { upright: true, ..Text::default() };
-        canvas.text([PLOT.left - 94.0, middle[1]], self.y, upright);
+        canvas.text([PLOT.left - 94.0, middle[1]], self.y.name, upright);
         Ok(())
     }
 
     fn curve(
         &self,
         canvas: &mut Canvas,
-        [x, y]: [Decades; 2],
+        [x, y]: [Range; 2],
         at: usize,
         series: &Series,
     ) -> Result<(), ReportError> {
         let colour = COLOURS[at % COLOURS.len()];
-        let place = |[a, b]: [f64; 2]| {
-            let right = PLOT.left + x.share(a) * PLOT.width();
-            [right, PLOT.bottom - y.share(b) * PLOT.height()]
-        };
-        let line: Vec<[f64; 2]> = drawn(series).map(place).collect();
+        let up = |value: f64| PLOT.bottom - y.share(value) * PLOT.height();
+        let along = |value: f64| PLOT.left + x.share(value) * PLOT.width();
+        let points: Vec<([f64; 2], f64)> = self.drawn(series).collect();
+        let line: Vec<[f64; 2]> = points.iter().map(|([a, b], _)| [along(*a), up(*b)]).collect();
+        let width = if series.is_formula { 1.5 } else { 2.5 };
         if line.len() > 1 {
-            canvas.line(&line, colour, 2.0)?;
+            canvas.line(&line, colour, width)?;
         }
-        for &point in &line {
-            canvas.dot(point, 5.0, colour)?;
+        for ([a, b], bar) in points.iter().filter(|_| !series.is_formula) {
+            let ends =
+                [b - bar, b + bar].map(|end| [along(*a), up(end).clamp(PLOT.top, PLOT.bottom)]);
+            canvas.line(&ends, colour, 1.5)?;
+            canvas.dot([along(*a), up(*b)], 5.0, colour)?;
         }
         let down = PLOT.top + 20.0 + LINE * at as f64;
         let left = PLOT.right + 30.0;
-        canvas.line(&[[left, down], [left + 34.0, down]], colour, 3.0)?;
+        canvas.line(&[[left, down], [left + 34.0, down]], colour, width)?;
+        if !series.is_formula {
+            canvas.dot([left + 17.0, down], 5.0, colour)?;
+        }
         let nothing = if line.is_empty() { " (nothing to show)" } else { "" };
         let look = Text { align: Align::Left, ..Text::default() };
         canvas.text([left + 46.0, down], &format!("{}{nothing}", series.name), look);
         Ok(())
     }
-}
 
-/// The points that logarithmic axes can show.
-fn drawn(series: &Series) -> impl Iterator<Item = [f64; 2]> {
-    let above = |point: &&[f64; 2]| point.iter().all(|x| x.is_finite() && *x > 0.0);
-    series.points.iter().filter(above).copied()
-}
-
-/// 10 and its power, raised; the 10 ends at `end`.
-fn power_of_ten(canvas: &mut Canvas, end: [f64; 2], power: i32) {
-    canvas.text(end, "10", Text { align: Align::Right, ..Text::default() });
-    let raised = Text { size: 15.0, align: Align::Left, ..Text::default() };
-    canvas.text([end[0] + 2.0, end[1] - 8.0], &tick_text(f64::from(power), 0), raised);
+    /// The points that the axes can show, with their bars.
+    fn drawn<'a>(&self, series: &'a Series) -> impl Iterator<Item = ([f64; 2], f64)> + use<'a> {
+        let [x, y] = [self.x.scale, self.y.scale];
+        let bar = |at: usize| series.bars.get(at).copied().filter(|bar| bar.is_finite());
+        let points = series.points.iter().enumerate();
+        let shown = points.filter(move |(_, point)| x.shows(point[0]) && y.shows(point[1]));
+        shown.map(move |(at, point)| (*point, bar(at).unwrap_or(0.0)))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// One that rounded the ends inwards would draw points outside of its frame.
-    #[test]
-    fn every_point_lies_within_whole_decades() {
-        let axis = Decades::around([3.0, 0.02, 99.0].into_iter());
-        assert_eq!(axis, Decades { low: -2, high: 2 });
-        assert_eq!(axis.share(1.0), 0.5);
-        assert_eq!(Decades::around([10.0].into_iter()), Decades { low: 1, high: 2 });
-        assert_eq!(Decades::around(std::iter::empty()), Decades { low: 0, high: 1 });
-    }
-
     /// A program that took logarithms of all there is would fail here, for want of a curve, or of a
     /// point that has one.
     #[test]
     fn what_cannot_be_drawn_is_left_out() {
         let points = vec![[0.0, 1.0], [1.0, f64::NAN], [2.0, -1.0]];
-        let series = [Series { name: "none".into(), points }];
-        for series in [&series[..], &[]] {
-            let chart = Chart { title: "t", caption: "c", x: "x", y: "y", series };
-            assert!(chart.to_png().unwrap().starts_with(b"\x89PNG"));
+        let series = [Series { name: "none".into(), points, ..Series::default() }];
+        for scale in [Scale::Log, Scale::Linear] {
+            let axis = Axis { name: "x", scale };
+            for series in [&series[..], &[]] {
+                let chart = Chart { title: "t", caption: "c", x: axis, y: axis, series };
+                assert!(chart.to_png().unwrap().starts_with(b"\x89PNG"));
+            }
         }
     }
 }

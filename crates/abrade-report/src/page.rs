@@ -23,6 +23,11 @@ pub fn to_html(summary: &Summary, picture: Option<&[u8]>) -> String {
     }
     let blocks = [surfaces(summary), bodies(summary), energies(summary), run(summary)];
     body.push_str(&format!("<div class=\"grid\">\n{}</div>\n", blocks.concat()));
+    document(&title, &body)
+}
+
+/// A page with this `title` and `body`, both markup.
+pub(crate) fn document(title: &str, body: &str) -> String {
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\

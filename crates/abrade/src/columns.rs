@@ -265,13 +265,14 @@ impl Columns {
             for piece in cut.pieces.iter() {
                 let total = share * (piece[1] - piece[0]);
                 let broken = column.dig(piece, share);
-                let debris = total * surface.laws.removal.share(|| cut.attack) + broken;
+                let debris = surface.laws.removal.debris(|| cut.attack);
                 surface.sink(slot.id, total + broken);
                 let worn = &mut surface.gain;
                 worn.lateral += slot.area * total * cut.lateral;
                 worn.normal += slot.area * total * (1.0 - cut.lateral);
                 worn.chip += slot.area * broken;
-                worn.removed += slot.area * debris;
+                worn.removed += slot.area * broken;
+                worn.take_off(slot.area * total, &debris);
             }
         }
         let (worn, toll) = (&mut surface.gain, &self.toll);

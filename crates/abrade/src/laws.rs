@@ -2,6 +2,7 @@
 //! arithmetic stands in `elastic` and `flow`.
 
 use crate::error::ParameterError;
+use crate::surface::Worn;
 
 /// Elastic part of the contact, per node.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,6 +103,30 @@ pub enum Removal {
     },
 }
 
+/// Angles of attack that [`Worn::by_attack`](crate::Worn::by_attack) tells apart.
+pub const ATTACK_BINS: usize = 18;
+/// Width of each of them [rad].
+pub const ATTACK_BIN: f64 = std::f64::consts::FRAC_PI_2 / ATTACK_BINS as f64;
+
+/// What a removal rule makes of a drop.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Debris {
+    /// Share that leaves.
+    share: f64,
+    /// Which angle of attack it was swept at, where the rule asks.
+    bin: Option<usize>,
+}
+
+impl Worn {
+    /// Books a displaced `volume` [m3] of which `debris` tells what leaves.
+    pub(crate) fn take_off(&mut self, volume: f64, debris: &Debris) {
+        self.removed += volume * debris.share;
+        if let Some(bin) = debris.bin {
+            self.by_attack[bin] += volume;
+        }
+    }
+}
+
 impl ElasticLaw {
     /// Every value outside its range.
     pub fn check(&self) -> Vec<ParameterError> {
@@ -124,12 +149,17 @@ impl Removal {
         matches!(self, Self::AttackAngle { .. })
     }
 
-    /// Share of a drop that becomes debris; `attack` is the sine of the face's angle of attack.
-    pub(crate) fn share(&self, attack: impl FnOnce() -> f64) -> f64 {
+    /// What becomes of a drop; `attack` is the sine of the face's angle of attack.
+    pub(crate) fn debris(&self, attack: impl FnOnce() -> f64) -> Debris {
         match self {
-            Self::All => 1.0,
-            Self::Fraction { of } => *of,
-            Self::AttackAngle { critical } => f64::from(u8::from(attack() >= critical.sin())),
+            Self::All => Debris { share: 1.0, bin: None },
+            Self::Fraction { of } => Debris { share: *of, bin: None },
+            Self::AttackAngle { critical } => {
+                let attack = attack();
+                let share = f64::from(u8::from(attack >= critical.sin()));
+                let bin = (attack.clamp(0.0, 1.0).asin() / ATTACK_BIN) as usize;
+                Debris { share, bin: Some(bin.min(ATTACK_BINS - 1)) }
+            }
         }
     }
 

@@ -82,7 +82,7 @@ pub use encounter::{
 };
 pub use error::{ParameterError, PhysicsError, ShapeError, SurfaceError};
 pub use hull::{Hull, Plane, Polyhedron, cuboid_vertices};
-pub use laws::{ElasticLaw, FlowLaw, HertzConvention, Lateral, Removal};
+pub use laws::{ATTACK_BIN, ATTACK_BINS, ElasticLaw, FlowLaw, HertzConvention, Lateral, Removal};
 pub use layout::HexStrip;
 pub use leaf::Changes;
 pub use ledger::Ledger;

@@ -8,7 +8,7 @@ use nalgebra::{Point3, Vector3};
 use crate::error::{ParameterError, SurfaceError};
 use crate::grid::Grid;
 use crate::hardness::HardnessMap;
-use crate::laws::{ElasticLaw, FlowLaw, Lateral, Removal};
+use crate::laws::{ATTACK_BINS, ElasticLaw, FlowLaw, Lateral, Removal};
 use crate::layout::{HexStrip, Layout, strip_positions};
 use crate::leaf::{Changes, Leaf};
 use crate::material::Material;
@@ -54,6 +54,9 @@ pub struct Worn {
     pub chip: f64,
     /// Debris, by the surface's removal rule.
     pub removed: f64,
+    /// Displaced by faces of each angle of attack, from 0 on in steps of 5 degrees; chips left out. Only
+    /// where the removal rule asks for that angle, else zeros.
+    pub by_attack: [f64; ATTACK_BINS],
     /// Largest depth of a node [m], renewals included.
     pub max_depth: f64,
     /// Largest total force along minus the normals [N].
@@ -107,6 +110,9 @@ impl AddAssign for Worn {
         self.lateral += other.lateral;
         self.chip += other.chip;
         self.removed += other.removed;
+        for (sum, more) in self.by_attack.iter_mut().zip(other.by_attack) {
+            *sum += more;
+        }
         self.max_depth = self.max_depth.max(other.max_depth);
         self.peak_normal_force = self.peak_normal_force.max(other.peak_normal_force);
         self.peak_touching = self.peak_touching.max(other.peak_touching);

@@ -64,7 +64,8 @@ impl TryFrom<SurfaceState> for Surface {
         let SurfaceState { layout, pitch, laws, worn, gain, depth, past, sunk, hardness } = state;
         require(positive(pitch), "the pitch of a surface is out of range")?;
         require(laws.check().is_empty(), "the laws of a surface are out of range")?;
-        let whole = |w: &Worn| finite(&[w.normal, w.lateral, w.chip, w.removed]);
+        let whole =
+            |w: &Worn| finite(&[w.normal, w.lateral, w.chip, w.removed]) && finite(&w.by_attack);
         let fine = whole(&worn) && whole(&gain) && depth.iter().all(|&depth| not_negative(depth));
         require(fine, "a depth is below zero or not finite")?;
         let mut surface = match layout {

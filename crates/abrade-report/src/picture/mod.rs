@@ -10,6 +10,7 @@ mod axis;
 mod camera;
 pub(crate) mod canvas;
 pub(crate) mod colour;
+pub(crate) mod gallery;
 mod letters;
 mod plan;
 mod raster;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use abrade_report::chart::{Chart, Series};
+use abrade_report::chart::{Axis, Chart, Scale, Series};
 
 use crate::convergence::Study;
 use crate::convergence::compare::Curve;
@@ -18,8 +18,8 @@ pub(crate) fn write(study: &Study, path: &Path) -> Result<(), StudyError> {
     let chart = Chart {
         title: &study.scene,
         caption: "error of the wear volume, each curve against its own finest run",
-        x: "wall time of a run (s)",
-        y: "relative error (-)",
+        x: Axis { name: "wall time of a run (s)", scale: Scale::Log },
+        y: Axis { name: "relative error (-)", scale: Scale::Log },
         series: &series,
     };
     Ok(chart.write(path)?)
@@ -32,5 +32,6 @@ fn series(curve: &Curve) -> Series {
     Series {
         name: format!("{}{slope}", curve.variant.name()),
         points: points.filter(|point| point[1] > DRAWN).collect(),
+        ..Series::default()
     }
 }

@@ -95,13 +95,14 @@ impl StudyFile {
 }
 
 /// What all impacts of a case have in common.
-struct Range<'a> {
+pub(crate) struct Range<'a> {
     file: &'a StudyFile,
     folder: &'a Path,
     case: &'a Case,
     /// The grain, where all impacts meet the same one.
     grain: Option<MadeGrain>,
-    plate: Arc<Surface>,
+    /// The plate, unworn.
+    pub(crate) plate: Arc<Surface>,
 }
 
 impl Case {
@@ -115,17 +116,27 @@ impl Case {
         folder: &Path,
         progress: &mut dyn Progress,
     ) -> Result<Option<Made>, CaseError> {
-        let median = file.grain_of_median_size(&self.grain, 0, folder)?;
-        let pitch = file.pitch(&median, self.speed);
-        let plate = Arc::new(file.plate(&median, pitch)?);
-        let is_one = file.size.spread() == 0.0
-            && !matches!(file.grains[&self.grain].form, Form::Grit { .. });
-        let range = Range { file, folder, case: self, grain: is_one.then_some(median), plate };
+        let range = Range::new(file, folder, self)?;
         let impacts = match file.plate {
             Plate::Fresh => range.fresh(progress)?,
             Plate::Worn { width } => range.worn(width, progress)?,
         };
-        Ok(impacts.map(|impacts| Made { pitch, impacts }))
+        Ok(impacts.map(|impacts| Made { pitch: range.plate.pitch(), impacts }))
+    }
+}
+
+impl<'a> Range<'a> {
+    pub(crate) fn new(
+        file: &'a StudyFile,
+        folder: &'a Path,
+        case: &'a Case,
+    ) -> Result<Self, CaseError> {
+        let median = file.grain_of_median_size(&case.grain, 0, folder)?;
+        let pitch = file.pitch(&median, case.speed);
+        let plate = Arc::new(file.plate(&median, pitch)?);
+        let is_one = file.size.spread() == 0.0
+            && !matches!(file.grains[&case.grain].form, Form::Grit { .. });
+        Ok(Self { file, folder, case, grain: is_one.then_some(median), plate })
     }
 }
 
@@ -168,7 +179,7 @@ impl Range<'_> {
     }
 
     /// Impact `k`, about the place `about` of `plate`.
-    fn land(
+    pub(crate) fn land(
         &self,
         k: u32,
         about: [f64; 2],

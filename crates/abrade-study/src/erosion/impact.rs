@@ -1,8 +1,8 @@
 //! One impact of a grain on a plate, from just above it until the whole grain is out again.
 
 use abrade::{
-    Body, Encounter, EncounterSettings, Instant, Ledger, Loads, Observer, PhysicsError, Placed,
-    Shape, State, Surface, Until,
+    ATTACK_BINS, Body, Encounter, EncounterSettings, Instant, Ledger, Loads, Observer,
+    PhysicsError, Placed, Shape, State, Surface, Until,
 };
 use abrade_scene::MadeGrain;
 use nalgebra::{Isometry3, Point3, Vector3};
@@ -50,6 +50,9 @@ pub struct Impact {
     pub chip_m3: f64,
     /// Debris, by the removal rule [m3].
     pub removed_volume_m3: f64,
+    /// Displaced by faces of each angle of attack, in steps of 5 degrees; zeros where the removal rule
+    /// does not ask for it [m3].
+    pub displaced_by_attack_m3: [f64; ATTACK_BINS],
     /// How deep the grain went below the unworn plate [m].
     pub depth_m: f64,
     /// Whether it stopped in its crater.
@@ -139,6 +142,9 @@ impl Shot<'_> {
             lateral_m3: after.lateral - before.lateral,
             chip_m3: after.chip - before.chip,
             removed_volume_m3: after.removed - before.removed,
+            displaced_by_attack_m3: std::array::from_fn(|bin| {
+                after.by_attack[bin] - before.by_attack[bin]
+            }),
             depth_m: deepest.depth,
             is_embedded,
             contact_s: advance.contact_time,

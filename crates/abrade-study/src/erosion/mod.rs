@@ -5,12 +5,17 @@
 //! some, and [`result`] tells what those that are there come to.
 
 mod case;
+mod charts;
 mod check;
+mod craters;
 mod descriptors;
 mod file;
 mod impact;
+mod laws;
+mod page;
 pub mod quantities;
 mod sample;
+mod sensitivity;
 mod silhouette;
 pub mod statistics;
 mod store;
@@ -19,6 +24,7 @@ mod table;
 
 use std::path::Path;
 
+use abrade_report::atomic;
 use abrade_scene::Progress;
 
 pub use case::{Case, CaseError, Made};
@@ -26,7 +32,9 @@ pub use check::load;
 pub use descriptors::Descriptors;
 pub use file::{Plate, Samples, Sequence, Size, StudyFile, Target, VERSION};
 pub use impact::Impact;
+pub use laws::Prediction;
 pub use sample::Sample;
+pub use sensitivity::Sensitivity;
 pub use summary::{CaseResult, Erosion, Exponent};
 
 use crate::error::StudyError;
@@ -99,12 +107,18 @@ pub fn result(file: &StudyFile, beside: &Path, out: &Path) -> Result<Erosion, St
     Ok(Erosion::of(file, &made, grains))
 }
 
-/// Writes what a study found into the folder `out`: `cases.csv`, `cases.jsonl`, `grains.csv`.
+/// Writes what a study found into the folder `out`: `report.html`, tables and pictures.
 ///
 /// # Errors
-/// The file system refuses.
-pub fn write(erosion: &Erosion, out: &Path) -> Result<(), StudyError> {
-    Ok(table::write(erosion, out)?)
+/// The file system refuses, or the drawing library does.
+pub fn write(erosion: &Erosion, beside: &Path, out: &Path) -> Result<(), StudyError> {
+    table::write(erosion, out)?;
+    let mut pictures = erosion.charts()?;
+    pictures.extend(craters::craters(&erosion.file, beside)?);
+    for picture in &pictures {
+        atomic::write(&out.join(picture.name), &picture.png)?;
+    }
+    Ok(erosion.page(pictures).write(&out.join("report.html"))?)
 }
 
 /// The progress of one case among others.

@@ -8,15 +8,34 @@ use super::statistics::{self, Estimate};
 pub struct Quantity {
     /// Name of its column, with the unit.
     pub name: &'static str,
-    above: fn(&Impact) -> f64,
+    above: Term,
     below: fn(&Impact) -> f64,
+}
+
+/// What is summed.
+#[derive(Clone, Copy)]
+enum Term {
+    Of(fn(&Impact) -> f64),
+    /// Chips, and what faces displaced at angles of attack from this bin on [m3].
+    CutFrom(usize),
+}
+
+impl Term {
+    fn of(self, impact: &Impact) -> f64 {
+        match self {
+            Self::Of(term) => term(impact),
+            Self::CutFrom(bin) => {
+                impact.chip_m3 + impact.displaced_by_attack_m3[bin..].iter().sum::<f64>()
+            }
+        }
+    }
 }
 
 impl Quantity {
     /// Its estimate from `impacts`.
     pub fn of(&self, impacts: &[Impact]) -> Estimate {
         let rows: Vec<[f64; 2]> =
-            impacts.iter().map(|impact| [(self.above)(impact), (self.below)(impact)]).collect();
+            impacts.iter().map(|impact| [self.above.of(impact), (self.below)(impact)]).collect();
         statistics::estimate(&rows, |sums| sums[0] / sums[1])
     }
 
@@ -41,7 +60,7 @@ impl Quantity {
     fn rows(&self, cases: &[&Made]) -> Vec<Vec<f64>> {
         let count = cases.iter().map(|made| made.impacts.len()).max().unwrap_or(0);
         let terms = |made: &&Made, k: usize| match made.impacts.get(k) {
-            Some(Ok(impact)) => [(self.above)(impact), (self.below)(impact)],
+            Some(Ok(impact)) => [self.above.of(impact), (self.below)(impact)],
             _ => [0.0; 2],
         };
         (0..count).map(|k| cases.iter().flat_map(|made| terms(made, k)).collect()).collect()
@@ -62,53 +81,84 @@ const MM3: f64 = 1e9;
 const STILL: f64 = 0.02;
 
 /// Displaced volume per mass of grains.
-pub const WEAR: Quantity =
-    Quantity { name: "wear_mm3_per_kg", above: |i| i.wear_volume_m3 * MM3, below: |i| i.mass_kg };
+pub const WEAR: Quantity = Quantity {
+    name: "wear_mm3_per_kg",
+    above: Term::Of(|i| i.wear_volume_m3 * MM3),
+    below: |i| i.mass_kg,
+};
 
 /// Debris per mass of grains.
 pub const REMOVED: Quantity = Quantity {
     name: "removed_mm3_per_kg",
-    above: |i| i.removed_volume_m3 * MM3,
+    above: Term::Of(|i| i.removed_volume_m3 * MM3),
     below: |i| i.mass_kg,
 };
 
 /// How deep a grain goes.
-pub const DEPTH: Quantity = Quantity { name: "depth_m", above: |i| i.depth_m, below: one };
+pub const DEPTH: Quantity =
+    Quantity { name: "depth_m", above: Term::Of(|i| i.depth_m), below: one };
+
+/// Debris per mass of grains, were it what faces cut at angles of attack from a multiple `bin` of
+/// [`ATTACK_BIN`](abrade::ATTACK_BIN) on.
+pub(crate) fn cut_from(bin: usize) -> Quantity {
+    let name = "cut_m3_per_kg";
+    Quantity { name, above: Term::CutFrom(bin), below: |i| i.mass_kg }
+}
 
 /// All of them.
 pub const ALL: [Quantity; 20] = [
     WEAR,
     REMOVED,
-    Quantity { name: "wear_volume_m3", above: |i| i.wear_volume_m3, below: one },
-    Quantity { name: "removed_volume_m3", above: |i| i.removed_volume_m3, below: one },
-    Quantity { name: "wear_energy_share", above: |i| i.energy_wear * i.energy_j, below: energy },
+    Quantity { name: "wear_volume_m3", above: Term::Of(|i| i.wear_volume_m3), below: one },
+    Quantity { name: "removed_volume_m3", above: Term::Of(|i| i.removed_volume_m3), below: one },
+    Quantity {
+        name: "wear_energy_share",
+        above: Term::Of(|i| i.energy_wear * i.energy_j),
+        below: energy,
+    },
     Quantity {
         name: "friction_energy_share",
-        above: |i| i.energy_friction * i.energy_j,
+        above: Term::Of(|i| i.energy_friction * i.energy_j),
         below: energy,
     },
     Quantity {
         name: "translation_energy_share",
-        above: |i| i.energy_translation * i.energy_j,
+        above: Term::Of(|i| i.energy_translation * i.energy_j),
         below: energy,
     },
     Quantity {
         name: "rotation_energy_share",
-        above: |i| i.energy_rotation * i.energy_j,
+        above: Term::Of(|i| i.energy_rotation * i.energy_j),
         below: energy,
     },
-    Quantity { name: "other_energy_share", above: |i| i.energy_other * i.energy_j, below: energy },
-    Quantity { name: "lateral_share", above: |i| i.lateral_m3, below: |i| i.wear_volume_m3 },
-    Quantity { name: "chip_share", above: |i| i.chip_m3, below: |i| i.wear_volume_m3 },
-    Quantity { name: "removed_share", above: |i| i.removed_volume_m3, below: |i| i.wear_volume_m3 },
+    Quantity {
+        name: "other_energy_share",
+        above: Term::Of(|i| i.energy_other * i.energy_j),
+        below: energy,
+    },
+    Quantity {
+        name: "lateral_share",
+        above: Term::Of(|i| i.lateral_m3),
+        below: |i| i.wear_volume_m3,
+    },
+    Quantity { name: "chip_share", above: Term::Of(|i| i.chip_m3), below: |i| i.wear_volume_m3 },
+    Quantity {
+        name: "removed_share",
+        above: Term::Of(|i| i.removed_volume_m3),
+        below: |i| i.wear_volume_m3,
+    },
     DEPTH,
-    Quantity { name: "restitution", above: |i| i.restitution, below: one },
-    Quantity { name: "restitution_normal", above: |i| i.restitution_normal, below: one },
-    Quantity { name: "restitution_tangential", above: |i| i.restitution_tangential, below: one },
-    Quantity { name: "spin_rad_s", above: |i| i.spin_rad_s, below: one },
-    Quantity { name: "forward_share", above: |i| share(i.rim > STILL), below: one },
-    Quantity { name: "backward_share", above: |i| share(i.rim < -STILL), below: one },
-    Quantity { name: "embedded_share", above: |i| share(i.is_embedded), below: one },
+    Quantity { name: "restitution", above: Term::Of(|i| i.restitution), below: one },
+    Quantity { name: "restitution_normal", above: Term::Of(|i| i.restitution_normal), below: one },
+    Quantity {
+        name: "restitution_tangential",
+        above: Term::Of(|i| i.restitution_tangential),
+        below: one,
+    },
+    Quantity { name: "spin_rad_s", above: Term::Of(|i| i.spin_rad_s), below: one },
+    Quantity { name: "forward_share", above: Term::Of(|i| share(i.rim > STILL)), below: one },
+    Quantity { name: "backward_share", above: Term::Of(|i| share(i.rim < -STILL)), below: one },
+    Quantity { name: "embedded_share", above: Term::Of(|i| share(i.is_embedded)), below: one },
 ];
 
 fn one(_: &Impact) -> f64 {

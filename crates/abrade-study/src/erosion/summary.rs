@@ -6,7 +6,11 @@ use super::descriptors::Descriptors;
 use super::file::StudyFile;
 use super::impact::Impact;
 use super::quantities::{ALL, Quantity, REMOVED, WEAR};
+use super::sensitivity::{Sensitivity, sensitivities};
 use super::statistics::Estimate;
+
+/// Debris over displaced volume of the reference below which it has none to speak of.
+const LEAST: f64 = 1e-6;
 
 /// What a study found.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +23,8 @@ pub struct Erosion {
     pub grains: Vec<(String, Descriptors)>,
     /// How wear goes with speed, per grain and angle; empty of studies at one speed.
     pub exponents: Vec<Exponent>,
+    /// What the debris hangs on.
+    pub sensitivities: Vec<Sensitivity>,
 }
 
 /// What a case found.
@@ -69,7 +75,9 @@ impl Erosion {
             let reference = reference.and_then(|name| find(name, case.speed, case.angle));
             let with = |quantity: &Quantity| {
                 let other = reference?;
-                let has_some = quantity.of(&hits[other]).value > 0.0;
+                // Debris of a sphere at right angles is a node or none: nothing to divide by.
+                let has_some =
+                    quantity.of(&hits[other]).value > LEAST * WEAR.of(&hits[other]).value;
                 has_some.then(|| quantity.ratio(case_made, &made[other].1))
             };
             let misses: Vec<&String> =
@@ -97,7 +105,8 @@ impl Erosion {
                 }
             }
         }
-        Self { file: file.clone(), cases, grains, exponents }
+        let sensitivities = sensitivities(file, made);
+        Self { file: file.clone(), cases, grains, exponents, sensitivities }
     }
 
     /// Number of cases that were not made.

@@ -117,7 +117,7 @@ impl Erosion {
                 let _ = writeln!(text, "\n{} at {} m/s", case.grain, digits(case.speed));
                 let mut line = String::new();
                 for (name, width) in HEAD {
-                    let _ = write!(line, "{name:>width$}");
+                    let _ = write!(line, "  {name:>width$}");
                 }
                 let _ = writeln!(text, "{line}");
             }
@@ -153,7 +153,7 @@ fn line(result: &CaseResult) -> String {
     ];
     let mut line = String::new();
     for (cell, (_, width)) in cells.iter().zip(HEAD) {
-        let _ = write!(line, "{cell:>width$}");
+        let _ = write!(line, "  {cell:>width$}");
     }
     match &result.missed {
         Some((count, why)) => format!("{line}  {count} without a result: {why}"),

@@ -290,7 +290,7 @@ impl Patch {
             let whole = spring.drop.normal + spring.drop.lateral;
             if spring.overlap > 0.0 && whole > 0.0 {
                 let slot = &self.candidates.slots[i];
-                let removed = surface.laws.removal.share(|| self.attack(slot));
+                let debris = surface.laws.removal.debris(|| self.attack(slot));
                 let slot = &mut self.candidates.slots[i];
                 // In the contact a node stands for both sides: it goes all the way.
                 slot.x -= slot.n * whole;
@@ -300,7 +300,7 @@ impl Patch {
                 surface.sink(slot.id, total);
                 surface.gain.normal += slot.area * normal;
                 surface.gain.lateral += slot.area * lateral;
-                surface.gain.removed += slot.area * total * removed;
+                surface.gain.take_off(slot.area * total, &debris);
             }
         }
         std::mem::swap(&mut self.old, &mut self.new);

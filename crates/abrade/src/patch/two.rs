@@ -65,7 +65,7 @@ impl Patch {
                 continue;
             }
             let Some((corners, weights)) = query.seat(&slot.x) else { continue };
-            let removed = other.laws.removal.share(|| self.attack(slot));
+            let debris = other.laws.removal.debris(|| self.attack(slot));
             for (corner, weight) in corners.into_iter().zip(weights) {
                 let area = other.nodes().rest_area[corner as usize];
                 let [normal, lateral] = [drop.normal, drop.lateral].map(|d| part * weight * d);
@@ -73,7 +73,7 @@ impl Patch {
                 other.sink(corner, total / area);
                 other.gain.normal += normal;
                 other.gain.lateral += lateral;
-                other.gain.removed += total * removed;
+                other.gain.take_off(total, &debris);
             }
         }
     }

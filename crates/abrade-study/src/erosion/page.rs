@@ -1,0 +1,275 @@
+//! `report.html`: what the study says, in sentences, pictures and tables.
+
+use abrade_report::quantity_text::digits;
+use abrade_report::sheet::{Part, Sheet};
+
+use super::charts::Drawn;
+use super::laws::{self, Prediction};
+use super::summary::{CaseResult, Erosion};
+use super::table::told;
+
+impl Erosion {
+    /// The page, with these pictures.
+    pub(crate) fn page(&self, pictures: Vec<Drawn>) -> Sheet {
+        let speed = self.file.speeds[0];
+        let laws = laws::predictions(&self.file, speed);
+        let mut parts =
+            vec![Part::Text { heading: "What came out".into(), lines: self.answers(&laws) }];
+        parts.extend(pictures.into_iter().map(|Drawn { png, alt, .. }| Part::Picture { png, alt }));
+        parts.extend(self.file.speeds.iter().map(|&speed| self.cases_table(speed)));
+        parts.push(self.laws_table(&laws));
+        parts.extend(self.sensitivity_table());
+        parts.push(self.grains_table());
+        parts.push(Part::Text { heading: "How it was made".into(), lines: self.method() });
+        let impacts: usize = self.cases.iter().map(|result| result.impacts).sum();
+        Sheet {
+            title: self.file.name.clone(),
+            subtitle: format!("{impacts} impacts in {} cases", self.cases.len()),
+            parts,
+        }
+    }
+
+    /// How much more, at which angle, how certain, and beside which laws.
+    fn answers(&self, laws: &[Prediction]) -> Vec<String> {
+        let mut lines = Vec::new();
+        let speed = self.file.speeds[0];
+        let degrees = |result: &CaseResult| digits(result.case.angle.to_degrees());
+        let most = |a: &&CaseResult, b: &&CaseResult| {
+            let of = |r: &CaseResult| r.quantity("removed_mm3_per_kg").value;
+            of(a).total_cmp(&of(b))
+        };
+        for name in self.file.grains.keys() {
+            let is_reference = self.file.reference.as_ref() == Some(name);
+            let ratios: Vec<String> = self
+                .of_grain(name, speed)
+                .filter_map(|r| Some(format!("{} at {} deg", told(&r.wear_ratio?), degrees(r))))
+                .collect();
+            if let Some(reference) =
+                self.file.reference.as_ref().filter(|_| !is_reference && !ratios.is_empty())
+            {
+                lines.push(format!(
+                    "{name} displaces, over {reference} of the same {}: {}.",
+                    self.size_word(),
+                    ratios.join(", ")
+                ));
+            }
+            if let Some(result) = self.of_grain(name, speed).max_by(most) {
+                let removed = result.quantity("removed_mm3_per_kg");
+                lines.push(match removed.value > 0.0 {
+                    true => format!(
+                        "{name} leaves most debris at {} deg: {} mm3/kg.",
+                        degrees(result),
+                        told(&removed)
+                    ),
+                    false => format!("{name} leaves no debris at any angle by the removal rule."),
+                });
+            }
+        }
+        for law in laws {
+            let peak = self.file.angles.iter().zip(&law.volumes).max_by(|a, b| a.1.total_cmp(b.1));
+            if let Some((angle, volume)) = peak {
+                lines.push(format!(
+                    "{} ({}): most at {} deg of these angles, {} mm3/kg.",
+                    law.name,
+                    law.given,
+                    digits(angle.to_degrees()),
+                    digits(*volume)
+                ));
+            }
+        }
+        lines.push(
+            "+- is half of the 95 % interval. Displaced volume is not mass loss: debris is what the removal \
+             rule takes of it."
+                .into(),
+        );
+        lines
+    }
+
+    fn of_grain<'a>(&'a self, name: &'a str, speed: f64) -> impl Iterator<Item = &'a CaseResult> {
+        self.cases.iter().filter(move |r| r.case.grain == name && r.case.speed == speed)
+    }
+
+    fn size_word(&self) -> &'static str {
+        match self.file.size {
+            super::file::Size::Volume { .. } => "mass",
+            super::file::Size::Feret { .. } => "length",
+        }
+    }
+
+    fn cases_table(&self, speed: f64) -> Part {
+        let head = [
+            "grain, angle",
+            "impacts",
+            "displaced mm3/kg",
+            "over reference",
+            "debris mm3/kg",
+            "over reference",
+            "W H / E0",
+            "depth um",
+            "restitution",
+            "normal",
+            "tangential",
+            "turns on",
+            "turns back",
+            "chips",
+        ];
+        let cases = self.cases.iter().filter(|result| result.case.speed == speed);
+        Part::Table {
+            heading: format!("Cases at {} m/s", digits(speed)),
+            note: "Restitution is speed after over speed before, and the same of its parts; a grain turns on \
+                   if its rim goes round, the way a wheel rolls, at more than 0.02 of its speed."
+                .into(),
+            head: head.map(str::to_owned).to_vec(),
+            rows: cases.map(row).collect(),
+        }
+    }
+
+    fn laws_table(&self, laws: &[Prediction]) -> Part {
+        let degrees = |angle: &f64| format!("{} deg", digits(angle.to_degrees()));
+        let head = ["law".to_owned(), "given".to_owned()].into_iter();
+        Part::Table {
+            heading: "Closed-form laws, in mm3/kg".into(),
+            note: format!(
+                "At {} m/s. Formulas, constants and sources: abrade laws --list.",
+                digits(self.file.speeds[0])
+            ),
+            head: head.chain(self.file.angles.iter().map(degrees)).collect(),
+            rows: laws
+                .iter()
+                .map(|law| {
+                    let names = [law.name.to_owned(), law.given.clone()].into_iter();
+                    names.chain(law.volumes.iter().map(|volume| digits(*volume))).collect()
+                })
+                .collect(),
+        }
+    }
+
+    /// What the debris hangs on, at the angle nearest to 30 degrees.
+    fn sensitivity_table(&self) -> Option<Part> {
+        let off = |angle: f64| (angle - 30f64.to_radians()).abs();
+        let nearest = self.file.angles.iter().min_by(|a, b| off(**a).total_cmp(&off(**b)))?;
+        let at: Vec<_> = self.sensitivities.iter().filter(|s| s.angle == *nearest).collect();
+        let criticals: Vec<f64> =
+            at.first()?.ratios.iter().map(|(critical, _)| *critical).collect();
+        let reference = self.file.reference.as_deref()?;
+        let degrees = |angle: f64| format!("{} deg", digits(angle.to_degrees()));
+        let head = ["grain".to_owned()].into_iter().chain(criticals.iter().map(|c| degrees(*c)));
+        let row = |s: &&super::Sensitivity| {
+            [s.grain.clone()].into_iter().chain(s.ratios.iter().map(|(_, r)| told(r))).collect()
+        };
+        Some(Part::Table {
+            heading: format!("Debris of {reference} over that of the grain at {}, by critical angle", degrees(*nearest)),
+            note: "Debris is what faces cut at an angle of attack above the critical one, and chips. Factors of \
+                   shape in use for erosion by round against angular sand are 0.2 to 0.53."
+                .into(),
+            head: head.collect(),
+            rows: at.iter().map(row).collect(),
+        })
+    }
+
+    fn grains_table(&self) -> Part {
+        let head = [
+            "grain",
+            "mass ug",
+            "diameter um",
+            "Feret um",
+            "sphericity",
+            "roundness",
+            "attack deg",
+            "spike SPQ",
+            "fit um",
+            "tip um",
+        ];
+        let micro = |value: Option<f64>| value.map_or("-".to_owned(), |value| digits(1e6 * value));
+        let rows = self.grains.iter().map(|(name, d)| {
+            vec![
+                name.clone(),
+                digits(1e9 * d.mass_kg),
+                digits(1e6 * d.volume_diameter_m),
+                digits(1e6 * d.feret_diameter_m),
+                digits(d.sphericity),
+                digits(d.roundness),
+                digits(d.attack_angle_rad.to_degrees()),
+                digits(d.spike),
+                micro(d.fit_error_m),
+                micro(d.tip_radius_m),
+            ]
+        });
+        Part::Table {
+            heading: "Grains".into(),
+            note: "Diameter of the sphere of the same volume; sphericity by Wadell; roundness is tip radius over \
+                   that of the largest inner sphere; attack is the mean angle from the surface to the front at a \
+                   height of 0.05 diameters; SPQ by Hamblin and Stachowiak; fit is how far a clump stays below its \
+                   form."
+                .into(),
+            head: head.map(str::to_owned).to_vec(),
+            rows: rows.collect(),
+        }
+    }
+
+    fn method(&self) -> Vec<String> {
+        let file = &self.file;
+        let target = &file.target;
+        let mut lines = vec![
+            format!(
+                "Flow {:?}, elastic {:?}, removal {:?}; hardness {} GPa, friction {}.",
+                target.flow,
+                target.elastic,
+                target.removal,
+                target.material.hardness / 1e9,
+                target.material.friction
+            ),
+            format!(
+                "Plate: {:?}. Each impact ends when the whole grain is out of the plate for the first time.",
+                file.plate
+            ),
+            format!(
+                "Samples: {:?}, seed {}, at least {}, at most {}, until the interval of the displaced volume is \
+                 {} % wide on either side; the same samples for every case.",
+                file.samples.sequence,
+                file.samples.seed,
+                file.samples.least,
+                file.samples.most,
+                digits(100.0 * file.samples.interval)
+            ),
+            format!(
+                "{} pitches in the edge of a cube of E0/H; accuracy {}.",
+                digits(file.resolution),
+                digits(file.accuracy)
+            ),
+        ];
+        for result in &self.cases {
+            if let Some((count, why)) = &result.missed {
+                lines.push(format!(
+                    "{} at {} deg and {} m/s: {count} impacts without a result; the first: {why}.",
+                    result.case.grain,
+                    digits(result.case.angle.to_degrees()),
+                    digits(result.case.speed)
+                ));
+            }
+        }
+        lines
+    }
+}
+
+fn row(result: &CaseResult) -> Vec<String> {
+    let value = |name: &str| result.quantity(name).value;
+    let share = |name: &str| format!("{:.0} %", 100.0 * value(name));
+    let ratio = |ratio: Option<super::statistics::Estimate>| ratio.map_or("-".into(), |r| told(&r));
+    vec![
+        format!("{}, {} deg", result.case.grain, digits(result.case.angle.to_degrees())),
+        result.impacts.to_string(),
+        told(&result.quantity("wear_mm3_per_kg")),
+        ratio(result.wear_ratio),
+        told(&result.quantity("removed_mm3_per_kg")),
+        ratio(result.removed_ratio),
+        format!("{:.3}", value("wear_energy_share")),
+        digits(1e6 * value("depth_m")),
+        format!("{:.3}", value("restitution")),
+        format!("{:.3}", value("restitution_normal")),
+        format!("{:.3}", value("restitution_tangential")),
+        share("forward_share"),
+        share("backward_share"),
+        format!("{:.1} %", 100.0 * value("chip_share")),
+    ]
+}
