@@ -44,7 +44,7 @@ impl Slot {
 pub(crate) struct Candidates {
     pub slots: Vec<Slot>,
     /// Pose at which the cache was made, and how far the body may move from it.
-    made: Option<(State, f64)>,
+    pub made: Option<(State, f64)>,
     /// Box around the undeformed nodes whose depths were read.
     pub read: Option<[Point3<f64>; 2]>,
 }
@@ -55,11 +55,6 @@ impl Candidates {
     pub(crate) fn slack(&self, shape: &Shape, state: &State) -> f64 {
         let Some((at, margin)) = &self.made else { return -1.0 };
         margin - travel(shape, at, state)
-    }
-
-    /// Bound of the distance that any point of the body moved since the cache was made [m].
-    pub(crate) fn travelled(&self, shape: &Shape, state: &State) -> f64 {
-        self.made.as_ref().map_or(f64::INFINITY, |(at, _)| travel(shape, at, state))
     }
 
     /// Collects the nodes within `margin` [m] of the body, which is inflated by `inflation`.

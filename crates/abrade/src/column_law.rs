@@ -172,6 +172,7 @@ impl ColumnLaw {
     }
 
     /// Charges the removal of the piece between `low` and `high` of a column.
+    #[inline]
     fn charge<const RUBS: bool, const HEADS: bool>(
         &self,
         step: &Step<'_>,

@@ -28,6 +28,10 @@ use crate::toll::Toll;
 
 /// Bisections of the travel after which a column may be touched.
 const GAP_STEPS: usize = 6;
+/// Candidates that are passed over together.
+const BLOCK: usize = 16;
+/// Stands for the open depth of a column with a spring under the body.
+const PRESSED: f64 = -1.0;
 
 /// Columns between one body and one surface.
 #[derive(Clone, Debug)]
@@ -40,15 +44,19 @@ pub(crate) struct Columns {
     #[cfg_attr(feature = "state", serde(skip))]
     swept: Swept,
     pub(crate) candidates: Candidates,
-    /// One per candidate: the column, and how far the body may move from where the candidates
-    /// were collected before it can touch it [m].
+    /// One per candidate: the column, and how deep it was open when the candidates were collected
+    /// [m], or `PRESSED`.
     columns: Vec<Column>,
-    gaps: Vec<f64>,
-    /// The least of the gaps [m].
+    opens: Vec<f64>,
+    /// How far the body may move from where the candidates were collected before it can touch a
+    /// column [m]; None until that is asked for.
     #[cfg_attr(feature = "state", serde(skip))]
-    least_gap: f64,
+    least_gap: Option<f64>,
     /// Per candidate, the mark on the body's way before which it cannot come to this column [m].
     marks: Vec<f64>,
+    /// The least mark of every `BLOCK` candidates, or less [m].
+    #[cfg_attr(feature = "state", serde(skip))]
+    dues: Vec<f64>,
     /// Where the body was before the last trial, and how long its way to there was [m].
     stood: (State, f64),
     #[cfg_attr(feature = "state", serde(skip))]
@@ -77,9 +85,10 @@ impl Columns {
             swept: Swept::default(),
             candidates: Candidates::default(),
             columns: Vec::new(),
-            gaps: Vec::new(),
-            least_gap: f64::INFINITY,
+            opens: Vec::new(),
+            least_gap: None,
             marks: Vec::new(),
+            dues: Vec::new(),
             stood: (State::at(Point3::origin()), 0.0),
             carried: Vec::new(),
             cuts: Vec::new(),
@@ -142,24 +151,50 @@ impl Columns {
             from.next_if(|(carried, _)| carried.id == slot.id)
                 .map_or_else(Column::default, |(_, column)| *column)
         }));
-        self.gaps.clear();
-        let columns = slots.iter().zip(&self.columns);
-        self.gaps.extend(columns.map(|(slot, column)| match column.squeeze > 0.0 {
+        self.opens.clear();
+        self.opens.extend(self.columns.iter().map(|column| match column.squeeze > 0.0 {
             // A spring is let go as soon as the body is past it.
-            true => 0.0,
-            false => gap(&self.swept, slot, column.open_depth(), margin, own(surface, slot)),
+            true => PRESSED,
+            false => column.open_depth(),
         }));
-        self.least_gap = least(&self.gaps);
+        self.least_gap = None;
         self.marks.clear();
         self.marks.resize(slots.len(), 0.0);
+        self.dues.clear();
+        self.dues.resize(slots.len().div_ceil(BLOCK), 0.0);
         self.stood = (*state, 0.0);
         self.cuts.reserve(slots.len().saturating_sub(self.cuts.len()));
     }
 
     /// How far the body at `state` may move before it can touch a column [m].
-    pub(crate) fn room(&self, shape: &Shape, state: &State) -> f64 {
-        let slack = self.candidates.slack(shape, state);
-        (self.least_gap - self.candidates.travelled(shape, state)).min(slack).max(0.0)
+    pub(crate) fn room(&mut self, surface: &Surface, shape: &Shape, state: &State) -> f64 {
+        let Some((at, margin)) = self.candidates.made else { return 0.0 };
+        let travelled = travel(shape, &at, state);
+        let least = match self.least_gap {
+            Some(least) => least,
+            None => {
+                self.swept.place(shape, &at, &at, surface.level());
+                *self.least_gap.insert(self.find_gap(surface, margin))
+            }
+        };
+        (least - travelled).min(margin - travelled).max(0.0)
+    }
+
+    /// The least gap, of candidates that the swept body has around it, within `margin` [m].
+    fn find_gap(&self, surface: &Surface, margin: f64) -> f64 {
+        let mut least = f64::INFINITY;
+        for (slot, &open) in self.candidates.slots.iter().zip(&self.opens) {
+            if open == PRESSED || least == 0.0 {
+                return 0.0;
+            }
+            let (top, own) = (slot.x - slot.n * open, own(surface, slot));
+            if self.swept.meets(&top, &slot.n, least.min(margin), own) {
+                least = least.min(gap(&self.swept, &top, &slot.n, margin, own));
+            } else {
+                least = least.min(margin);
+            }
+        }
+        least
     }
 
     /// Takes every column through a step; commits nothing.
@@ -188,7 +223,6 @@ impl Columns {
         motion: &Motion,
     ) {
         self.swept.place(shape, start, end, surface.level());
-        let travelled = self.candidates.travelled(shape, end);
         let mut step = Step {
             swept: &self.swept,
             motion,
@@ -205,30 +239,30 @@ impl Columns {
         let before = self.stood.1 + travel(shape, &self.stood.0, start);
         self.stood = (*start, before);
         let way = before + travel(shape, start, end);
-        let marks = self.gaps.iter().zip(&mut self.marks).enumerate();
-        for (index, (&gap, mark)) in marks {
-            if gap > travelled || *mark > way {
-                continue;
-            }
-            let slot = &self.candidates.slots[index];
-            if HEADS && (slot.n != normal || motion.drag.is_some()) {
-                normal = slot.n;
-                step.heading = motion.heading(&(slot.x - step.middle), &normal);
-            }
-            step.own = own(surface, slot);
-            let column = &self.columns[index];
-            match self.law.sweep::<RUBS, HEADS>(&step, slot, column, &mut self.toll) {
-                Some(cut) => self.cuts.push(Cut { index: index as u32, ..cut }),
-                None => {
-                    let top = slot.x - slot.n * column.open_depth();
-                    let clear = self.swept.clearance(&top, &slot.n);
-                    // Seen from where the body stood: the step may yet be rejected.
-                    let far = before + (clear - (way - before));
-                    if far > way {
-                        *mark = far;
+        let blocks = self.marks.chunks_mut(BLOCK).zip(&mut self.dues).enumerate();
+        for (block, (marks, due)) in blocks.filter(|(_, (_, due))| **due <= way) {
+            for (index, mark) in (block * BLOCK..).zip(&mut *marks).filter(|(_, m)| **m <= way) {
+                let slot = &self.candidates.slots[index];
+                if HEADS && (slot.n != normal || motion.drag.is_some()) {
+                    normal = slot.n;
+                    step.heading = motion.heading(&(slot.x - step.middle), &normal);
+                }
+                step.own = own(surface, slot);
+                let column = &self.columns[index];
+                match self.law.sweep::<RUBS, HEADS>(&step, slot, column, &mut self.toll) {
+                    Some(cut) => self.cuts.push(Cut { index: index as u32, ..cut }),
+                    None => {
+                        let top = slot.x - slot.n * column.open_depth();
+                        let clear = self.swept.clearance(&top, &slot.n);
+                        // Seen from where the body stood: the step may yet be rejected.
+                        let far = before + (clear - (way - before));
+                        if far > way {
+                            *mark = far;
+                        }
                     }
                 }
             }
+            *due = marks.iter().fold(f64::INFINITY, |least, mark| mark.min(least));
         }
     }
 
@@ -259,8 +293,8 @@ impl Columns {
             let (slot, column) = (&self.candidates.slots[index], &mut self.columns[index]);
             column.squeeze = cut.squeeze;
             if cut.squeeze > 0.0 {
-                // The body may come back to where it was when the gap was found.
-                (self.gaps[index], self.least_gap) = (0.0, 0.0);
+                // The body may come back to where it was when the candidates were collected.
+                (self.opens[index], self.least_gap) = (PRESSED, Some(0.0));
             }
             for piece in cut.pieces.iter() {
                 let total = share * (piece[1] - piece[0]);
@@ -308,10 +342,6 @@ impl Columns {
     }
 }
 
-fn least(gaps: &[f64]) -> f64 {
-    gaps.iter().copied().fold(f64::INFINITY, f64::min)
-}
-
 /// How far below the place of a column at the first touch the material is its own [m].
 fn own(surface: &Surface, slot: &Slot) -> f64 {
     let reach = surface.reach(slot.id);
@@ -322,11 +352,10 @@ fn own(surface: &Surface, slot: &Slot) -> f64 {
     (reach - worn).max(0.0)
 }
 
-/// A travel [m], at most `margin`, within which the body cannot touch the column whose solid
-/// begins `depth` [m] below its node.
-fn gap(swept: &Swept, slot: &Slot, depth: f64, margin: f64, reach: f64) -> f64 {
-    let top = slot.x - slot.n * depth;
-    let meets = |travel: f64| swept.meets(&top, &slot.n, travel, reach);
+/// A travel [m], at most `margin`, within which the body cannot touch the column down along -n
+/// whose solid begins at `top`.
+fn gap(swept: &Swept, top: &Point3<f64>, n: &Vector3<f64>, margin: f64, reach: f64) -> f64 {
+    let meets = |travel: f64| swept.meets(top, n, travel, reach);
     if !meets(margin) {
         return margin;
     }
@@ -352,12 +381,13 @@ impl Columns {
         require(not_negative(self.damping_ratio), "columns are out of range")?;
         self.candidates.check()?;
         let count = self.candidates.slots.len();
-        let same = [self.columns.len(), self.gaps.len(), self.marks.len()] == [count; 3];
+        let same = [self.columns.len(), self.opens.len(), self.marks.len()] == [count; 3];
         require(same, "columns and candidates differ in number")?;
-        require(self.gaps.iter().all(|&gap| not_negative(gap)), "a gap is below zero")?;
+        let open = |&open: &f64| open == PRESSED || not_negative(open);
+        require(self.opens.iter().all(open), "a column is open above its node")?;
         let way = not_negative(self.stood.1) && finite(&self.marks);
         require(way, "the way of a body over columns is out of range")?;
-        self.least_gap = least(&self.gaps);
+        self.dues.resize(count.div_ceil(BLOCK), 0.0);
         Ok(self)
     }
 

@@ -8,6 +8,11 @@ use crate::shape::{Piece, Shape};
 
 /// A lower bound of the distance from `x` to the shape at `state` [m].
 pub(crate) fn clearance(shape: &Shape, state: &State, x: &Point3<f64>) -> f64 {
+    if let [Piece::Ball(ball)] = shape.pieces()
+        && ball.centre == Point3::origin()
+    {
+        return (x - state.position).norm() - ball.radius;
+    }
     let local = state.rotation.inverse_transform_vector(&(x - state.position));
     shape.pieces().iter().map(|piece| piece_clearance(piece, &local)).fold(f64::INFINITY, f64::min)
 }

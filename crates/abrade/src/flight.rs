@@ -36,7 +36,7 @@ pub(crate) fn free_time(
         Contact::Springs(patch) => patch,
         Contact::Columns(columns) => {
             columns.cover(surface, &body.shape, local, COLUMNS_PITCH * surface.pitch());
-            return time_to_close(columns.room(&body.shape, local), speed, acceleration);
+            return time_to_close(columns.room(surface, &body.shape, local), speed, acceleration);
         }
         Contact::Mutual(mutual) => {
             let Some(skin) = &placed.skin else { return 0.0 };

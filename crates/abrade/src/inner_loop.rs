@@ -123,7 +123,8 @@ impl Reaction {
     fn take<E: Elastic, Q>(&mut self, answer: &Answer, node: &NodeStep<'_, E, Q>) {
         let Answer { spring, loaded: k, overlap_change } = answer;
         let coefficient = k.touch.coefficient;
-        let force = k.touch.contact_normal * k.normal_force + k.tangential;
+        let pressed = k.touch.contact_normal * k.normal_force;
+        let force = if E::RUBS { pressed + k.tangential } else { pressed };
         self.force -= force;
         self.torque -= k.touch.arm.cross(&force);
         self.normal_stiffness +=

@@ -47,8 +47,8 @@ pub struct Candidate {
     pub overlap: f64,
     /// Normal and lateral load less their caps [N].
     pub excess: [f64; 2],
-    /// Of columns: how far the body may move before it can touch this one [m].
-    pub gap: f64,
+    /// Of columns: the mark on the body's way before which it cannot come to this one [m].
+    pub mark: f64,
     /// Voids along the normal, sorted upwards [m]; the first `count` are filled.
     pub voids: [[f64; 2]; 4],
     /// Number of voids.
@@ -66,8 +66,8 @@ pub struct Course {
     pub spin: Vector3<f64>,
     /// Length [s].
     pub dt: f64,
-    /// How far the body has moved since the gaps were found [m].
-    pub travelled: f64,
+    /// Of columns: the body's way at the end of the step [m].
+    pub way: f64,
     /// Elastic coefficient of the body's first piece, and radius it is inflated by.
     pub coefficient: f64,
 }
@@ -185,9 +185,10 @@ impl Recording {
 
     /// The candidates of step `i`.
     pub fn candidates(&self, i: usize) -> Vec<Candidate> {
-        match &self.frames[i].contact {
+        let Frame { contact, marks, .. } = &self.frames[i];
+        match contact {
             Contact::Springs(patch) => patch.recorded(),
-            Contact::Columns(columns) => columns.recorded(),
+            Contact::Columns(columns) => columns.recorded(marks),
             Contact::Mutual(_) => Vec::new(),
         }
     }
@@ -195,14 +196,15 @@ impl Recording {
     /// What step `i` needs beside them.
     pub fn course(&self, i: usize) -> Course {
         let Frame { contact, poses, motion, .. } = &self.frames[i];
-        let (candidates, coefficient) = match contact {
-            Contact::Springs(patch) => (&patch.candidates, patch.coefficient()),
-            Contact::Columns(columns) => (&columns.candidates, columns.coefficient()),
+        let (way, coefficient) = match contact {
+            Contact::Springs(patch) => (0.0, patch.coefficient()),
+            Contact::Columns(columns) => {
+                (columns.way(&self.shape, &poses[1]), columns.coefficient())
+            }
             Contact::Mutual(_) => unreachable!("a recorded body has no surface of its own"),
         };
         let Motion { velocity, spin, dt, .. } = *motion;
-        let travelled = candidates.travelled(&self.shape, &poses[1]);
-        Course { poses: *poses, velocity, spin, dt, travelled, coefficient }
+        Course { poses: *poses, velocity, spin, dt, way, coefficient }
     }
 }
 

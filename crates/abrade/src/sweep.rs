@@ -143,7 +143,11 @@ impl Swept {
         let hulls = self.hulls.iter().any(|&end| {
             let planes = &self.planes[start..end];
             start = end;
-            hull_meets(planes, x, n, [-(reach + margin), margin], margin)
+            let line = [-(reach + margin), margin];
+            match self.level {
+                Some(_) => hull_meets(planes, x, |plane| plane.slope, line, margin),
+                None => hull_meets(planes, x, |plane| plane.to.0.dot(n), line, margin),
+            }
         });
         hulls || self.balls.iter().any(|ball| ball.meets(x, n, margin, reach))
     }
@@ -155,7 +159,10 @@ impl Swept {
         let hulls = self.hulls.iter().map(|&end| {
             let planes = &self.planes[start..end];
             start = end;
-            hull_clearance(planes, x, n)
+            match self.level {
+                Some(_) => hull_clearance(planes, x, |plane| plane.slope),
+                None => hull_clearance(planes, x, |plane| plane.to.0.dot(n)),
+            }
         });
         let balls = self.balls.iter().map(|ball| ball.clearance(x, n));
         hulls.chain(balls).fold(f64::INFINITY, f64::min)
@@ -202,7 +209,10 @@ fn clip(
                 deep = Some(plane);
             }
         } else if slope > 0.0 {
-            high = high.min(room / slope);
+            let bound = room / slope;
+            if bound < high {
+                high = bound;
+            }
         } else if room < 0.0 {
             return None;
         }
@@ -213,21 +223,27 @@ fn clip(
     deep.map(|plane| Span { low, high, deep_normal: plane.to.0 })
 }
 
-#[inline]
+#[inline(always)]
 fn hull_meets(
     planes: &[MovedPlane],
     x: &Point3<f64>,
-    n: &Vector3<f64>,
+    slope: impl Fn(&MovedPlane) -> f64,
     [mut low, mut high]: [f64; 2],
     margin: f64,
 ) -> bool {
-    for MovedPlane { to: (normal, offset), .. } in planes {
-        let slope = normal.dot(n);
+    for plane in planes {
+        let (slope, (normal, offset)) = (slope(plane), &plane.to);
         let room = offset + margin - normal.dot(&x.coords);
         if slope < 0.0 {
-            low = low.max(room / slope);
+            let bound = room / slope;
+            if bound > low {
+                low = bound;
+            }
         } else if slope > 0.0 {
-            high = high.min(room / slope);
+            let bound = room / slope;
+            if bound < high {
+                high = bound;
+            }
         } else if room < 0.0 {
             return false;
         }
@@ -239,11 +255,20 @@ fn hull_meets(
 }
 
 /// Distance of the line from the farthest of the planes from which it leads away.
-#[inline]
-fn hull_clearance(planes: &[MovedPlane], x: &Point3<f64>, n: &Vector3<f64>) -> f64 {
-    let leads_away = |plane: &&MovedPlane| plane.to.0.dot(n) <= 0.0;
-    let distances = planes.iter().filter(leads_away).map(|p| p.to.0.dot(&x.coords) - p.to.1);
-    distances.fold(f64::NEG_INFINITY, f64::max)
+#[inline(always)]
+fn hull_clearance(
+    planes: &[MovedPlane],
+    x: &Point3<f64>,
+    slope: impl Fn(&MovedPlane) -> f64,
+) -> f64 {
+    let mut farthest = f64::NEG_INFINITY;
+    for plane in planes {
+        let distance = plane.to.0.dot(&x.coords) - plane.to.1;
+        if slope(plane) <= 0.0 && distance > farthest {
+            farthest = distance;
+        }
+    }
+    farthest
 }
 
 /// The plane that was crossed last on the way in, and when, as a share of the step.

@@ -126,7 +126,7 @@ impl Bare for BareHull {
         let mut sum = Sum::default();
         new.clear();
         for (index, column) in columns.iter().enumerate() {
-            if column.gap > course.travelled {
+            if column.mark > course.way {
                 continue;
             }
             let mut cut = Cut { index: index as u32, ..Cut::default() };

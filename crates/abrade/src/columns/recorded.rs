@@ -1,7 +1,10 @@
 //! The candidates of columns as benches see them.
 
 use super::Columns;
+use crate::body::State;
+use crate::candidates::travel;
 use crate::probe::Candidate;
+use crate::shape::Shape;
 
 impl Columns {
     /// Depth of every column that the last trial took away [m].
@@ -29,11 +32,18 @@ impl Columns {
 
     pub(crate) fn set_marks(&mut self, marks: &[f64]) {
         self.marks.copy_from_slice(marks);
+        self.dues.fill(0.0);
     }
 
-    pub(crate) fn recorded(&self) -> Vec<Candidate> {
-        let pairs = self.candidates.slots.iter().zip(&self.columns).zip(&self.gaps);
-        let of = pairs.map(|((slot, column), &gap)| {
+    /// How long the body's way is at `end`, the end of a step from where it stood [m].
+    pub(crate) fn way(&self, shape: &Shape, end: &State) -> f64 {
+        self.stood.1 + travel(shape, &self.stood.0, end)
+    }
+
+    /// The candidates with these marks.
+    pub(crate) fn recorded(&self, marks: &[f64]) -> Vec<Candidate> {
+        let pairs = self.candidates.slots.iter().zip(&self.columns).zip(marks);
+        let of = pairs.map(|((slot, column), &mark)| {
             let (voids, count) = column.recorded();
             Candidate {
                 x: slot.x,
@@ -43,7 +53,7 @@ impl Columns {
                 stretch: Default::default(),
                 overlap: column.squeeze,
                 excess: [0.0; 2],
-                gap,
+                mark,
                 voids,
                 count,
             }

@@ -27,7 +27,7 @@ impl Patch {
             stretch: old.stretch,
             overlap: old.overlap,
             excess: [old.excess.normal, old.excess.lateral],
-            gap: 0.0,
+            mark: 0.0,
             voids: Default::default(),
             count: 0,
         });
