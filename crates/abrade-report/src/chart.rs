@@ -36,14 +36,29 @@ pub struct Series {
     pub points: Vec<[f64; 2]>,
     /// Half lengths of the bars at the points, upwards and downwards; empty without bars.
     pub bars: Vec<f64>,
-    /// Drawn thin and without dots: a formula.
+    /// Drawn dashed and without dots: a formula.
     pub is_formula: bool,
+}
+
+impl Series {
+    /// Leaves out the points below `least`, and their bars.
+    pub fn leave_out_below(&mut self, least: f64) {
+        let keeps: Vec<bool> = self.points.iter().map(|point| point[1] >= least).collect();
+        let mut kept = keeps.iter();
+        self.points.retain(|_| *kept.next().unwrap_or(&true));
+        let mut kept = keeps.iter();
+        self.bars.retain(|_| *kept.next().unwrap_or(&true));
+    }
 }
 
 /// Size of a chart [pixels].
 const SIZE: [usize; 2] = [1400, 860];
 /// The plot in it [pixels].
 const PLOT: Rect = Rect { left: 130.0, right: 960.0, top: 130.0, bottom: 760.0 };
+/// Width of a curve [pixels].
+const WIDTH: f64 = 2.5;
+/// A dash and the gap behind it [pixels].
+const DASH: [f64; 2] = [9.0, 6.0];
 /// From one line of the legend to the next [pixels].
 const LINE: f64 = 40.0;
 
@@ -81,8 +96,13 @@ impl Chart<'_> {
         let x = self.x.range(values(0));
         let y = self.y.range(ends);
         self.grid(&mut canvas, x, y)?;
+        // Dashes tell formulas from the others: they begin with the first colour again.
+        let mut colours = [0, 0];
         for (at, series) in self.series.iter().enumerate() {
-            self.curve(&mut canvas, [x, y], at, series)?;
+            let next = &mut colours[usize::from(series.is_formula)];
+            let colour = COLOURS[*next % COLOURS.len()];
+            *next += 1;
+            self.curve(&mut canvas, [x, y], (at, colour), series)?;
         }
         canvas.to_png()
     }
@@ -118,17 +138,19 @@ impl Chart<'_> {
         &self,
         canvas: &mut Canvas,
         [x, y]: [Range; 2],
-        at: usize,
+        (at, colour): (usize, Rgb),
         series: &Series,
     ) -> Result<(), ReportError> {
-        let colour = COLOURS[at % COLOURS.len()];
         let up = |value: f64| PLOT.bottom - y.share(value) * PLOT.height();
         let along = |value: f64| PLOT.left + x.share(value) * PLOT.width();
         let points: Vec<([f64; 2], f64)> = self.drawn(series).collect();
         let line: Vec<[f64; 2]> = points.iter().map(|([a, b], _)| [along(*a), up(*b)]).collect();
-        let width = if series.is_formula { 1.5 } else { 2.5 };
-        if line.len() > 1 {
-            canvas.line(&line, colour, width)?;
+        let strokes = |line: &[[f64; 2]]| match series.is_formula {
+            true => dashes(line),
+            false => vec![line.to_vec()],
+        };
+        for stroke in strokes(&line).iter().filter(|stroke| stroke.len() > 1) {
+            canvas.line(stroke, colour, WIDTH)?;
         }
         for ([a, b], bar) in points.iter().filter(|_| !series.is_formula) {
             let ends =
@@ -138,7 +160,9 @@ impl Chart<'_> {
         }
         let down = PLOT.top + 20.0 + LINE * at as f64;
         let left = PLOT.right + 30.0;
-        canvas.line(&[[left, down], [left + 34.0, down]], colour, width)?;
+        for stroke in strokes(&[[left, down], [left + 34.0, down]]) {
+            canvas.line(&stroke, colour, WIDTH)?;
+        }
         if !series.is_formula {
             canvas.dot([left + 17.0, down], 5.0, colour)?;
         }
@@ -158,9 +182,48 @@ impl Chart<'_> {
     }
 }
 
+/// The dashes of a line.
+fn dashes(line: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+    let mut strokes = vec![line.first().copied().into_iter().collect::<Vec<_>>()];
+    let (mut is_drawn, mut left) = (true, DASH[0]);
+    for pair in line.windows(2) {
+        let [a, b] = [pair[0], pair[1]];
+        let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+        let mut gone = 0.0;
+        while length - gone > left {
+            gone += left;
+            let at = [0, 1].map(|k| a[k] + (b[k] - a[k]) * gone / length);
+            match (is_drawn, strokes.last_mut()) {
+                (true, Some(stroke)) => stroke.push(at),
+                _ => strokes.push(vec![at]),
+            }
+            is_drawn = !is_drawn;
+            left = DASH[usize::from(!is_drawn)];
+        }
+        left -= length - gone;
+        if let (true, Some(stroke)) = (is_drawn, strokes.last_mut()) {
+            stroke.push(b);
+        }
+    }
+    strokes
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Fails for dashes that start anew at every point, which close points make a solid line, or that leave
+    /// the line.
+    #[test]
+    fn dashes_go_on_from_point_to_point() {
+        let line: Vec<[f64; 2]> = (0..=100).map(|i| [f64::from(i), 7.0]).collect();
+        let strokes = dashes(&line);
+        let drawn: f64 = strokes.iter().map(|s| s[s.len() - 1][0] - s[0][0]).sum();
+        let period = DASH[0] + DASH[1];
+        assert!((drawn - 100.0 * DASH[0] / period).abs() < DASH[0], "{drawn}");
+        assert_eq!(strokes.len(), (100.0 / period).ceil() as usize);
+        assert!(strokes.iter().flatten().all(|at| at[1] == 7.0));
+    }
 
     /// A program that took logarithms of all there is would fail here, for want of a curve, or of a
     /// point that has one.

@@ -38,7 +38,7 @@ const EDGE: f64 = 190.0;
 /// Between two of them [pixels].
 const GAP: f64 = 12.0;
 /// Left of the first column, for the names of rows [pixels].
-const LEFT: f64 = 230.0;
+const LEFT: f64 = 280.0;
 /// Above the first row [pixels].
 const TOP: f64 = 160.0;
 /// Right of the last column, for the colour bar [pixels].

@@ -17,6 +17,8 @@ pub(crate) struct Drawn {
     pub(crate) png: Vec<u8>,
 }
 
+/// Debris over the largest below which it is not drawn.
+const LEAST: f64 = 1e-4;
 /// Steps of a law's curve from 1 to 90 degrees.
 const STEPS: u32 = 89;
 
@@ -58,6 +60,9 @@ impl Erosion {
                 ..Series::default()
             });
         }
+        let values = || series.iter().flat_map(|one| one.points.iter().map(|point| point[1]));
+        let least = LEAST * values().fold(0.0, f64::max);
+        series.iter_mut().for_each(|one| one.leave_out_below(least));
         let alt = "Debris per mass of grains, by the removal rule, beside closed-form laws";
         let axes = [
             Axis { name: ANGLE, scale: Scale::Linear },

@@ -9,6 +9,9 @@ use super::case::{Case, Range};
 use super::charts::Drawn;
 use super::file::{Plate, StudyFile};
 
+/// Distance from the place of impact up to which nodes are shown, in diameters.
+const REACH: f64 = 2.5;
+
 /// The picture of the first crater of every grain and angle at the first speed; None for studies on worn
 /// plates, where one crater cannot be told from the others.
 pub(crate) fn craters(file: &StudyFile, folder: &Path) -> Result<Option<Drawn>, ReportError> {
@@ -44,9 +47,9 @@ fn crater(file: &StudyFile, folder: &Path, case: &Case) -> Option<Crater> {
     let mut plate = Surface::leaf(&range.plate);
     range.land(0, [0.0; 2], &mut plate).ok()?.ok()?;
     let (sin, cos) = file.samples.at(0).azimuth.sin_cos();
-    let reach = file.size.diameter();
+    let reach = REACH * file.size.diameter();
     let nodes = plate.nodes().rest_position.iter().enumerate();
-    let near = nodes.filter(|(_, at)| at.x.abs() < reach && at.y.abs() < reach);
+    let near = nodes.filter(|(_, at)| at.coords.norm() < reach);
     // Turned so that the grain flew along x.
     let seen = |(i, at): (usize, &nalgebra::Point3<f64>)| {
         [at.x * cos + at.y * sin, at.y * cos - at.x * sin, plate.depth(i)]

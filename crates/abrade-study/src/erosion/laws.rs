@@ -1,6 +1,7 @@
 //! What closed-form laws say of a study's impacts, per mass of grains.
 
 use abrade_laws::{Dnv, Finnie1960, Finnie1972, Grit, Impact, Oka, Steel, SteelCurve};
+use abrade_report::quantity_text::digits;
 
 use super::file::StudyFile;
 
@@ -48,8 +49,8 @@ pub(crate) fn predictions_at(file: &StudyFile, speed: f64, angles: &[f64]) -> Ve
         }),
         of(
             "Oka 2005, quartz",
-            format!("Hv = {gigapascal} GPa, D = {} um", 1e6 * diameter),
-            &|impact| oka.volume_per_mass(impact),
+            format!("Hv = {gigapascal} GPa, D = {} um", digits(1e6 * diameter)),
+            &|impact| 1e9 * oka.volume_per_mass(impact),
         ),
     ];
     if let Some(density) = file.target.density {

@@ -5,6 +5,7 @@ use abrade_report::sheet::{Part, Sheet};
 
 use super::charts::Drawn;
 use super::laws::{self, Prediction};
+use super::statistics::Estimate;
 use super::summary::{CaseResult, Erosion};
 use super::table::told;
 
@@ -31,58 +32,52 @@ impl Erosion {
 
     /// How much more, at which angle, how certain, and beside which laws.
     fn answers(&self, laws: &[Prediction]) -> Vec<String> {
-        let mut lines = Vec::new();
-        let speed = self.file.speeds[0];
-        let degrees = |result: &CaseResult| digits(result.case.angle.to_degrees());
-        let most = |a: &&CaseResult, b: &&CaseResult| {
-            let of = |r: &CaseResult| r.quantity("removed_mm3_per_kg").value;
-            of(a).total_cmp(&of(b))
-        };
-        for name in self.file.grains.keys() {
-            let is_reference = self.file.reference.as_ref() == Some(name);
-            let ratios: Vec<String> = self
-                .of_grain(name, speed)
-                .filter_map(|r| Some(format!("{} at {} deg", told(&r.wear_ratio?), degrees(r))))
-                .collect();
-            if let Some(reference) =
-                self.file.reference.as_ref().filter(|_| !is_reference && !ratios.is_empty())
-            {
-                lines.push(format!(
-                    "{name} displaces, over {reference} of the same {}: {}.",
-                    self.size_word(),
-                    ratios.join(", ")
-                ));
-            }
-            if let Some(result) = self.of_grain(name, speed).max_by(most) {
-                let removed = result.quantity("removed_mm3_per_kg");
-                lines.push(match removed.value > 0.0 {
-                    true => format!(
-                        "{name} leaves most debris at {} deg: {} mm3/kg.",
-                        degrees(result),
-                        told(&removed)
-                    ),
-                    false => format!("{name} leaves no debris at any angle by the removal rule."),
-                });
-            }
-        }
-        for law in laws {
-            let peak = self.file.angles.iter().zip(&law.volumes).max_by(|a, b| a.1.total_cmp(b.1));
-            if let Some((angle, volume)) = peak {
-                lines.push(format!(
-                    "{} ({}): most at {} deg of these angles, {} mm3/kg.",
-                    law.name,
-                    law.given,
-                    digits(angle.to_degrees()),
-                    digits(*volume)
-                ));
-            }
-        }
+        let mut lines: Vec<String> =
+            self.file.grains.keys().filter_map(|name| self.answer(name)).collect();
+        let peaks: Vec<String> = laws.iter().map(|law| self.peak(law)).collect();
+        lines.push(format!(
+            "Closed-form laws of debris, each where it is largest of these angles: {}.",
+            peaks.join("; ")
+        ));
         lines.push(
-            "+- is half of the 95 % interval. Displaced volume is not mass loss: debris is what the removal \
+            "± is half of the 95 % interval. Displaced volume is not mass loss: debris is what the removal \
              rule takes of it."
                 .into(),
         );
         lines
+    }
+
+    /// The grain of this `name`, in a sentence.
+    fn answer(&self, name: &str) -> Option<String> {
+        let cases: Vec<&CaseResult> = self.of_grain(name, self.file.speeds[0]).collect();
+        let (first, last) = (cases.first()?, cases.last()?);
+        let degrees = |result: &CaseResult| digits(result.case.angle.to_degrees());
+        let debris = |result: &CaseResult| result.quantity("removed_mm3_per_kg");
+        let most = cases.iter().max_by(|a, b| debris(a).value.total_cmp(&debris(b).value))?;
+        let leaves = match debris(most).value > 0.0 {
+            true => format!("most debris at {} deg, {} mm³/kg", degrees(most), sign(&debris(most))),
+            false => "no debris by the removal rule".to_owned(),
+        };
+        let reference = self.file.reference.as_deref().filter(|reference| *reference != name);
+        let ratio = |result: &CaseResult| {
+            Some(format!("{} at {} deg", sign(&result.wear_ratio?), degrees(result)))
+        };
+        Some(match (reference, ratio(first), ratio(last)) {
+            (Some(reference), Some(one), Some(other)) => format!(
+                "{name}: displaces {one} to {other} times as much as {reference} of the same {}; {leaves}.",
+                self.size_word()
+            ),
+            _ => format!("{name}: {leaves}."),
+        })
+    }
+
+    /// Where a law is largest.
+    fn peak(&self, law: &Prediction) -> String {
+        let peak = self.file.angles.iter().zip(&law.volumes).max_by(|a, b| a.1.total_cmp(b.1));
+        let told = peak.map(|(angle, volume)| {
+            format!("{} mm³/kg at {} deg", digits(*volume), digits(angle.to_degrees()))
+        });
+        format!("{} {}", law.name, told.unwrap_or_default())
     }
 
     fn of_grain<'a>(&'a self, name: &'a str, speed: f64) -> impl Iterator<Item = &'a CaseResult> {
@@ -100,12 +95,12 @@ impl Erosion {
         let head = [
             "grain, angle",
             "impacts",
-            "displaced mm3/kg",
+            "displaced mm³/kg",
             "over reference",
-            "debris mm3/kg",
+            "debris mm³/kg",
             "over reference",
             "W H / E0",
-            "depth um",
+            "depth µm",
             "restitution",
             "normal",
             "tangential",
@@ -128,7 +123,7 @@ impl Erosion {
         let degrees = |angle: &f64| format!("{} deg", digits(angle.to_degrees()));
         let head = ["law".to_owned(), "given".to_owned()].into_iter();
         Part::Table {
-            heading: "Closed-form laws, in mm3/kg".into(),
+            heading: "Closed-form laws, in mm³/kg".into(),
             note: format!(
                 "At {} m/s. Formulas, constants and sources: abrade laws --list.",
                 digits(self.file.speeds[0])
@@ -170,15 +165,15 @@ impl Erosion {
     fn grains_table(&self) -> Part {
         let head = [
             "grain",
-            "mass ug",
-            "diameter um",
-            "Feret um",
+            "mass µg",
+            "diameter µm",
+            "Feret µm",
             "sphericity",
             "roundness",
             "attack deg",
             "spike SPQ",
-            "fit um",
-            "tip um",
+            "fit µm",
+            "tip µm",
         ];
         let micro = |value: Option<f64>| value.map_or("-".to_owned(), |value| digits(1e6 * value));
         let rows = self.grains.iter().map(|(name, d)| {
@@ -255,13 +250,13 @@ impl Erosion {
 fn row(result: &CaseResult) -> Vec<String> {
     let value = |name: &str| result.quantity(name).value;
     let share = |name: &str| format!("{:.0} %", 100.0 * value(name));
-    let ratio = |ratio: Option<super::statistics::Estimate>| ratio.map_or("-".into(), |r| told(&r));
+    let ratio = |ratio: Option<Estimate>| ratio.map_or("-".into(), |r| sign(&r));
     vec![
         format!("{}, {} deg", result.case.grain, digits(result.case.angle.to_degrees())),
         result.impacts.to_string(),
-        told(&result.quantity("wear_mm3_per_kg")),
+        sign(&result.quantity("wear_mm3_per_kg")),
         ratio(result.wear_ratio),
-        told(&result.quantity("removed_mm3_per_kg")),
+        sign(&result.quantity("removed_mm3_per_kg")),
         ratio(result.removed_ratio),
         format!("{:.3}", value("wear_energy_share")),
         digits(1e6 * value("depth_m")),
@@ -272,4 +267,9 @@ fn row(result: &CaseResult) -> Vec<String> {
         share("backward_share"),
         format!("{:.1} %", 100.0 * value("chip_share")),
     ]
+}
+
+/// An estimate with the sign that pages have.
+fn sign(estimate: &Estimate) -> String {
+    told(estimate).replace("+-", "±")
 }

@@ -1,0 +1,149 @@
+//! Cases are made in parts, in any order, and again.
+
+use std::path::Path;
+
+use abrade_scene::Progress;
+use abrade_study::erosion::{self, Case, StudyFile};
+
+use crate::{make, study, text};
+
+const GRAINS: &str = "\"sphere\": (form: Sphere), \"grit\": (form: Grit(points: 8))";
+const ANGLES: &str = "\"20 deg\", \"70 deg\"";
+
+fn small() -> StudyFile {
+    study(&text(GRAINS, ANGLES, 6))
+}
+
+fn table(file: &StudyFile, out: &Path) -> String {
+    let result = erosion::result(file, Path::new(""), out).expect("a result");
+    erosion::write(&result, Path::new(""), out).expect("files");
+    std::fs::read_to_string(out.join("cases.csv")).expect("a table")
+}
+
+/// Fails for a case that depends on those before it, on the number of threads, or on the digits that its
+/// file keeps.
+#[test]
+fn shards_that_are_merged_give_the_bits_of_one_machine() {
+    let file = small();
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = |name: &str| folder.path().join(name);
+    let whole = out("whole");
+    make(&file, &file.cases(), &whole);
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    one.install(|| {
+        for (first, name) in [(1, "b"), (0, "a")] {
+            let mut cases: Vec<Case> = file.cases();
+            cases.retain(|case| case.number % 2 == first);
+            cases.reverse();
+            make(&file, &cases, &out(name));
+        }
+    });
+    let merged = out("merged");
+    for name in ["a", "b"] {
+        erosion::gather(&file, Path::new(""), &out(name), &merged).expect("its cases");
+    }
+    let table_of_whole = table(&file, &whole);
+    assert_eq!(table(&file, &merged), table_of_whole);
+    assert_eq!(table_of_whole.lines().count(), 5);
+    for name in [
+        "report.html",
+        "wear.png",
+        "ratio.png",
+        "debris.png",
+        "craters.png",
+        "grains.csv",
+        "cases.jsonl",
+    ] {
+        assert!(merged.join(name).exists(), "{name}");
+    }
+    let missing = erosion::gather(&file, Path::new(""), &out("nowhere"), &merged);
+    assert!(missing.unwrap_err().to_string().contains("holds no case"));
+}
+
+/// Stops at once.
+struct Stop;
+
+impl Progress for Stop {
+    fn advance(&mut self, _: f64, _: Option<f64>) -> bool {
+        false
+    }
+}
+
+/// Fails for a study that begins anew, that keeps half a case, or that takes the cases of another study for
+/// its own.
+#[test]
+fn a_study_goes_on_where_it_was_broken_off() {
+    let file = small();
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path();
+    let cases = file.cases();
+    make(&file, &cases[..2], out);
+    let path = out.join("cases/0001.jsonl");
+    let (text_before, made) = (std::fs::read(&path).expect("a case"), std::fs::metadata(&path));
+    let written = made.expect("a case").modified().expect("a time");
+    assert!(!erosion::make(&file, Path::new(""), &cases, out, &mut Stop).expect("an interrupt"));
+    assert!(!erosion::is_made(&file, Path::new(""), &cases[2], out));
+    make(&file, &cases, out);
+    let again = std::fs::metadata(&path).expect("a case").modified().expect("a time");
+    assert_eq!((written, text_before.clone()), (again, std::fs::read(&path).expect("a case")));
+    // A file that is cut off is made again, to the same bytes.
+    std::fs::write(&path, &text_before[..text_before.len() / 2]).expect("a file");
+    assert!(!erosion::is_made(&file, Path::new(""), &cases[1], out));
+    make(&file, &cases, out);
+    assert_eq!(std::fs::read(&path).expect("a case"), text_before);
+    let mut other = file.clone();
+    other.target.material.hardness *= 1.01;
+    assert!(!erosion::is_made(&other, Path::new(""), &cases[1], out));
+}
+
+/// Fails for impacts that each find a fresh plate, or for a plate whose craters are not those that the
+/// impacts tell of: the second of two grains on one spot finds room that the first one made.
+#[test]
+fn a_worn_plate_keeps_what_it_has_lost() {
+    let narrow = |plate: &str| {
+        let text = text("\"sphere\": (form: Sphere)", "\"90 deg\"", 12);
+        study(&text.replace("speeds:", &format!("plate: {plate}, speeds:")))
+    };
+    let wear = |file: &StudyFile| {
+        let result = crate::whole(file);
+        result.cases[0].quantity("wear_volume_m3").value
+    };
+    let (fresh, wide, crowded) = (
+        wear(&narrow("Fresh")),
+        wear(&narrow("Worn(width: \"20 mm\")")),
+        wear(&narrow("Worn(width: \"1 um\")")),
+    );
+    // Energy goes into volume wherever it goes at right angles.
+    assert!((wide / fresh - 1.0).abs() < 1e-2, "{wide} {fresh}");
+    assert!((crowded / fresh - 1.0).abs() < 1e-2, "{crowded} {fresh}");
+}
+
+/// Fails for a fault that is found late, without its place, or one at a time.
+#[test]
+fn faults_are_told_at_their_places_all_at_once() {
+    let text = text(
+        "\"cube\": (form: RoundedCube(radius: 0.7)), \"ball\": (form: Sphere, spheres: 3)",
+        "\"0 deg\"",
+        1,
+    )
+    .replace("1.7 GPa", "-1 GPa");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("study.ron");
+    std::fs::write(&path, text).expect("a file");
+    let error = erosion::load(&path, &[]).expect_err("faults").to_string();
+    for told in [
+        "study.ron:2:",
+        "hardness",
+        "`cube`",
+        "below 0.5",
+        "`ball`",
+        "made of spheres",
+        "angles.0",
+        "least",
+    ] {
+        assert!(error.contains(told), "{told} is not in\n{error}");
+    }
+    let unknown =
+        erosion::load(&path, &["samples.moste=3".into()]).expect_err("a word").to_string();
+    assert!(unknown.contains("moste") && unknown.contains("most"), "{unknown}");
+}
