@@ -208,11 +208,6 @@ impl Course {
         Self { state, acceleration, radius: radius * (1.0 + MARGIN), surfaces_speed: 0.0 }
     }
 
-    /// Box around the body over `dt` [s], in the frame that `frame` places.
-    fn region(&self, frame: &Isometry3<f64>, dt: f64) -> Extent {
-        self.seen_from(frame).part([0.0, dt])
-    }
-
     fn seen_from(&self, frame: &Isometry3<f64>) -> Self {
         let acceleration = frame.inverse_transform_vector(&self.acceleration);
         Self { state: self.state.seen_from(frame), acceleration, ..*self }
@@ -265,23 +260,38 @@ impl Course {
         Extent { low: centre, high: centre }.grown(self.radius + speed * dt)
     }
 
-    /// The surfaces that the body comes near in `dt` [s].
+    /// The surfaces that the body comes near in `sight` [s], or that Rapier, which makes contacts over
+    /// gaps of `contacts` [m], may take it to come near.
     pub fn near(
         &self,
         lies: &[Lie],
         surfaces: &[WornCollider],
-        dt: f64,
+        [sight, contacts]: [f64; 2],
         near: &mut Vec<SurfaceId>,
     ) {
         near.clear();
-        let world = self.region(&Isometry3::identity(), dt);
+        let world = self.part([0.0, sight]).grown(contacts);
         for lie in lies.iter().filter(|lie| lie.extent.meets(&world)) {
             let worn = &surfaces[lie.id.0];
-            let moved = lie.lead.map_or(0.0, |lead| lead.speed * dt);
-            if self.region(&lie.pose, dt).meets(&worn.bounds.grown(worn.inflation + moved)) {
+            let moved = lie.lead.map_or(0.0, |lead| lead.speed * sight);
+            let bounds = worn.bounds.grown(worn.inflation + moved);
+            let local = self.seen_from(&lie.pose);
+            let region = local.part([0.0, sight]);
+            if region.meets(&bounds) || local.comes_askew(&bounds, [sight, contacts]) {
                 near.push(lie.id);
             }
         }
+    }
+
+    /// True for a body that comes in over an edge of `bounds`. To Rapier its contact is a plane that
+    /// stands askew there, through which it may come although it passes by.
+    fn comes_askew(&self, bounds: &Extent, [sight, contacts]: [f64; 2]) -> bool {
+        let State { position, velocity, .. } = &self.state;
+        let off = position - position.sup(&bounds.low).inf(&bounds.high);
+        let is_over_an_edge = off.iter().filter(|apart| **apart != 0.0).count() > 1;
+        let way = velocity.norm() * sight + 0.5 * self.acceleration.norm() * sight * sight;
+        let gap = off.norm() - self.radius;
+        is_over_an_edge && gap <= way.min(contacts) && velocity.dot(&off) < 0.0
     }
 }
 

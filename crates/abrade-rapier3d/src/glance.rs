@@ -57,6 +57,8 @@ pub(crate) struct Span {
     pub dt: f64,
     /// Acceleration of gravity [m/s2].
     pub gravity: f64,
+    /// Gap over which Rapier makes contacts [m].
+    pub contacts: f64,
 }
 
 impl Glances {
@@ -84,7 +86,7 @@ impl Glances {
             self.span = span;
             self.list.iter_mut().for_each(|glance| glance.tag |= LATE);
         }
-        let time = span.dt * (1.0 + MARGIN);
+        let near = [span.dt * (1.0 + MARGIN), span.contacts];
         for (handle, rb) in bodies.iter() {
             let (index, generation) = handle.into_raw_parts();
             let index = index as usize;
@@ -97,7 +99,7 @@ impl Glances {
                 glance.renew(rb, generation, changed, &span);
             }
             let is_busy = glance.tag & BUSY != 0;
-            if is_busy || self.targets.iter().any(|t| may_reach(rb, glance.reach, time, t)) {
+            if is_busy || self.targets.iter().any(|t| may_reach(rb, glance.reach, near, t)) {
                 picked.push(handle);
             }
         }
@@ -168,13 +170,14 @@ fn target(extent: &Extent) -> Extent {
     extent.grown(ROUNDINGS * scalar::ROUNDING * size)
 }
 
-/// Could a body that reaches as far as `reach` [m] come to `target` in `time` [s]? As the box
-/// around its course, but never smaller, and without its rotation.
+/// Could a body that reaches as far as `reach` [m] come to `target` in `time` [s], or is it as close
+/// as `contacts` [m]? As the box around its course, but never smaller, and without its rotation.
 #[inline]
-fn may_reach(rb: &RigidBody, reach: f64, time: f64, target: &Extent) -> bool {
+fn may_reach(rb: &RigidBody, reach: f64, [time, contacts]: [f64; 2], target: &Extent) -> bool {
     let (at, velocity) = (rb.translation(), rb.linvel());
     let close = |at, velocity, axis: usize| {
-        let (at, reach) = (scalar::wide(at), reach + scalar::wide(velocity).abs() * time);
+        let way = (scalar::wide(velocity).abs() * time).max(contacts);
+        let (at, reach) = (scalar::wide(at), reach + way);
         target.low[axis] - at <= reach && at - target.high[axis] <= reach
     };
     close(at.z, velocity.z, 2) && close(at.x, velocity.x, 0) && close(at.y, velocity.y, 1)

@@ -178,7 +178,8 @@ impl WearWorld {
         let dt = scalar::wide(parameters.dt);
         // Rapier brakes a body that its next substep would bring into contact.
         let sight = dt * (1.0 + 1.0 / parameters.num_solver_iterations.max(1) as f64);
-        self.current = Current { dt, sight, ..Current::default() };
+        let contacts = scalar::wide(parameters.prediction_distance());
+        self.current = Current { dt, sight, contacts, ..Current::default() };
         self.events.clear();
         self.integrated.clear();
         self.steered.clear();
@@ -220,7 +221,8 @@ impl WearWorld {
         let times = [self.current.dt, self.current.sight];
         gate::lie(&self.surfaces, world, &self.bodies, times, &mut self.lies);
         let mut picked = std::mem::take(&mut self.picked);
-        let span = Span { dt: self.current.sight, gravity: gravity.norm() };
+        let Current { sight, contacts, .. } = self.current;
+        let span = Span { dt: sight, gravity: gravity.norm(), contacts };
         self.glances.pick(world.bodies, world.colliders, &self.lies, span, &mut picked);
         for &handle in &picked {
             let Some(rb) = world.bodies.get(handle) else { continue };
@@ -263,7 +265,8 @@ impl WearWorld {
         let surfaces = &self.surfaces;
         let tracked = Tracked::slot(&mut self.bodies, handle);
         let course = Course::of(rb, tracked, gravity);
-        course.near(&self.lies, surfaces, self.current.sight, &mut tracked.near);
+        let Current { sight, contacts, .. } = self.current;
+        course.near(&self.lies, surfaces, [sight, contacts], &mut tracked.near);
         tracked.near.retain(|id| gate::feels(rb, &surfaces[id.0], colliders));
         let may_hold = tracked.near.iter().all(|id| gate::can_hold(&self.lies, surfaces, *id));
         if may_hold && !tracked.near.is_empty() && tracked.derive(rb, colliders).is_ok() {
@@ -286,7 +289,8 @@ impl WearWorld {
         let tracked = Tracked::slot(&mut self.bodies, handle);
         let lost = tracked.drop_lost_shadow(rb);
         let mut course = Course::of(rb, tracked, gravity);
-        course.near(&self.lies, surfaces, self.current.sight, &mut tracked.near);
+        let Current { sight, contacts, .. } = self.current;
+        course.near(&self.lies, surfaces, [sight, contacts], &mut tracked.near);
         tracked.near.retain(|id| gate::feels(rb, &surfaces[id.0], colliders));
         course.surfaces_speed = gate::top_speed(&self.lies, &tracked.near);
         if lost {

@@ -163,7 +163,7 @@ impl WearWorld {
         let course = Course::from_state(state, Vector3::zeros(), tracked.radius);
         let surfaces = &self.surfaces;
         let mut near = std::mem::take(&mut tool.near);
-        course.near(&self.lies, surfaces, self.current.sight, &mut near);
+        course.near(&self.lies, surfaces, [self.current.sight, 0.0], &mut near);
         near.retain(|id| gate::feels(rb, &surfaces[id.0], world.colliders));
         let leads = near.iter().filter_map(|id| Lie::find(&self.lies, *id)?.lead);
         for (lead, free) in leads.filter_map(|lead| Some((lead, lead.free?))) {

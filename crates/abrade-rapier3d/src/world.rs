@@ -94,6 +94,8 @@ pub(crate) struct Current {
     pub dt: f64,
     /// Time within which a contact that is to come matters: the step and another substep [s].
     pub sight: f64,
+    /// Gap over which Rapier makes contacts [m].
+    pub contacts: f64,
     pub exited: Option<RigidBodyHandle>,
     pub failure: Option<WearError>,
     /// Box around wherever bodies near a surface may get.
