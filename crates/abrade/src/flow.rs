@@ -269,7 +269,11 @@ impl Flow for NormalPressure {
         }
         // No bound by the advance: H per volume is the law, also where the face turns on a node.
         let out_of_contact = start.touch.overlap / start.cosine;
-        let (normal, now) = node.sink([0.0, out_of_contact], start, start.normal_force, excess);
+        let mut sunk = node.sink([0.0, out_of_contact], start, start.normal_force, excess);
+        if is_of_another_piece(start, &sunk) {
+            sunk = sink_to_another_piece(node, start, out_of_contact, excess);
+        }
+        let (normal, now) = sunk;
         (Drop { normal, lateral: 0.0 }, now)
     }
 
@@ -278,6 +282,41 @@ impl Flow for NormalPressure {
         let normal = loaded.normal_force * loaded.cosine - area * self.hardness;
         Excess { normal, lateral: 0.0 }
     }
+}
+
+/// Share of an overlap by which it may be rounded.
+const OVERLAP_ROUNDING: f64 = 1e-6;
+/// Bisections of the way down to another piece.
+const PIECE_STEPS: usize = 40;
+
+/// True where another piece than at `start` holds a node that has sunk by a drop [m]: from a ball or a
+/// face it gets away at least as fast as at first.
+#[inline(always)]
+fn is_of_another_piece(start: &Loaded, (drop, now): &(f64, Loaded)) -> bool {
+    let most = start.touch.overlap * (1.0 + OVERLAP_ROUNDING) - start.cosine * drop;
+    now.touch.overlap > most
+}
+
+/// The largest drop within `limit` [m] before which `excess` is above zero and no other piece of the
+/// body comes upon the node, and the node after it.
+#[inline(never)]
+fn sink_to_another_piece<E: Elastic, Q: Query>(
+    node: &NodeStep<'_, E, Q>,
+    start: &Loaded,
+    limit: f64,
+    excess: impl Fn(&Loaded) -> f64,
+) -> (f64, Loaded) {
+    let (mut sunk, mut high) = ((0.0, *start), limit);
+    for _ in 0..PIECE_STEPS {
+        let drop = 0.5 * (sunk.0 + high);
+        let next = (drop, node.at(drop));
+        if excess(&next.1) > 0.0 && !is_of_another_piece(start, &next) {
+            sunk = next;
+        } else {
+            high = drop;
+        }
+    }
+    sunk
 }
 
 #[cfg(test)]
@@ -415,6 +454,32 @@ mod tests {
         // Half-way between the overlaps: 50 mm with the upper ball, 30 mm off the lower one.
         assert!((answer.spring.drop.normal - 0.04).abs() < 1e-9, "{:?}", answer.spring);
         assert!(answer.loaded.cosine > STEEP && answer.spring.normal_load > 0.0);
+    }
+
+    /// Fails for a search that looks beyond another ball, below whose top the node would be pressed as
+    /// well, and harder than by the one that it gets away from.
+    #[test]
+    fn a_node_on_its_way_down_does_not_pass_through_another_piece() {
+        let piece = |x: f64, z: f64, radius: f64| Contactor {
+            piece: Piece::Ball(Ball { centre: Point3::new(x, 0.0, z), radius }),
+            coefficient: 1e3,
+        };
+        let mut query = ClumpQuery::new(&[piece(0.62, 0.325, 1.0), piece(-0.25, -0.5, 0.3)], 0.0);
+        query.place(&State::at(Point3::origin()));
+        let ball = ball(Point3::origin());
+        let NodeStep { elastic, x, n, area, friction, heading, trial_stretch, .. } =
+            node(&ball, Point3::origin());
+        let query = &query;
+        let mut node = NodeStep { query, elastic, x, n, area, friction, heading, trial_stretch };
+        let motion =
+            Motion { velocity: -Vector3::z(), spin: Vector3::zeros(), drag: None, dt: 0.05 };
+        let flow = NormalPressure { hardness: 1.0 };
+        let answer =
+            resolve(Flat, &flow, &mut node, &Spring::default(), &motion).expect("a contact");
+        let drop = answer.spring.drop.normal;
+        let upper = 1.0 - 0.62f64.hypot(0.325 + drop);
+        let lower = 0.3 - 0.25f64.hypot(0.5 - drop);
+        assert!((upper - lower).abs() < 1e-9 && upper > 0.03, "{drop}: {upper} {lower}");
     }
 
     /// Depth to which a ball that comes down, slides by and leaves takes a node, in `count` steps.

@@ -102,6 +102,11 @@ impl BallQuery {
         }
     }
 
+    /// k_w [Pa/m], or K sqrt(R_eff) [N/m^1.5].
+    pub(crate) fn coefficient(&self) -> f64 {
+        self.coefficient
+    }
+
     pub(crate) fn place(&mut self, state: &State) {
         self.offset = state.rotation * self.ball.centre.coords;
         self.centre = state.position + self.offset;
