@@ -275,8 +275,8 @@ impl Integrator {
     /// moments differ keeps its spin, whose free turning must keep the energy.
     fn swept_prediction(&self, body: &Body, surfaces: &[Placed<'_>], half: f64) -> Prediction {
         let pull = &self.pull;
-        if self.is_damped && !self.touching {
-            // The last step let go: what its dashpots did says nothing of a flight.
+        if !self.touching {
+            // The last step let go: what springs and dashpots did says nothing of a flight.
             return Prediction::default();
         }
         let force = pull.force - pull.spring_force;
