@@ -14,6 +14,12 @@ const SHORT_STEP: f64 = 0.1;
 /// Share of a contact's energy by which they may be out of balance at all.
 const UNBALANCED: f64 = 0.05;
 
+/// The part of the energy that springs have `lost` sideways [J] that the body still owed them, of
+/// `short` [J]: what nobody has paid for is nobody's loss.
+pub(crate) fn unpaid(lost: f64, short: f64) -> f64 {
+    lost.min(short.max(0.0))
+}
+
 impl Integrator {
     /// True for a trial that brings springs under faces further out of balance than a shorter one
     /// should; on surfaces at rest and without dashpots.

@@ -11,6 +11,7 @@ use crate::body::{Body, State};
 use crate::carrier::{Answer, Hand, Ride, carriers_energy, flight_limit};
 use crate::contact::Contact;
 use crate::damping::{Damping, Dashpots};
+use crate::debt::unpaid;
 use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Skin, Until};
 use crate::error::PhysicsError;
 use crate::exit::engulfed;
@@ -431,9 +432,10 @@ impl Integrator {
         }
         self.pull = Pull::default();
         self.balance = None;
+        let lost = std::mem::take(&mut self.ledger.elastic);
+        self.ledger.history += lost - unpaid(lost, self.short);
         self.short = 0.0;
         (self.touching, self.touched) = (false, false);
-        self.ledger.history += std::mem::take(&mut self.ledger.elastic);
     }
 
     /// Books what dashpots of a led body dissipated [J].

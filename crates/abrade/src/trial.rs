@@ -6,6 +6,7 @@ use crate::body::{Body, State};
 use crate::carried::Grip;
 use crate::carrier::Ride;
 use crate::contact::Contact;
+use crate::debt::unpaid;
 use crate::encounter::{Loads, Placed};
 use crate::flight::top_speed;
 use crate::inner_loop::Reaction;
@@ -74,6 +75,8 @@ pub(crate) struct Charge {
     pub share: f64,
     /// Energy that the springs were short of [J].
     pub short: f64,
+    /// Of what they lost, the part that nobody had paid [J].
+    pub forgiven: f64,
 }
 
 /// What columns and dashpots are foreseen to change over half a step, and the share of it that is
@@ -304,7 +307,8 @@ impl Integrator {
         let (springs, toll) = (&trial.springs, &trial.toll);
         let mut state = trial.state;
         self.kick(body, loads, &springs.force, &springs.torque, 0.5 * trial.dt, &mut state);
-        let cost = toll.spring.friction + toll.elastic + toll.lost + self.short;
+        let cost = toll.spring.friction + toll.elastic + toll.lost + self.short
+            - unpaid(toll.lost, self.short);
         balance(self.change(&toll.spring, &state, |answer| &answer.sprung), cost).1
     }
 
@@ -343,7 +347,9 @@ impl Integrator {
         let guided = self.dynamics.is_guided();
         let flow_cost = toll.wear + toll.flow.friction;
         let (flow_gain, spring_gain) = if flow_cost > 0.0 { (gain, 0.0) } else { (0.0, gain) };
-        let cost = toll.spring.friction + toll.elastic + toll.lost + self.short + spring_gain;
+        let forgiven = if guided { 0.0 } else { unpaid(toll.lost, self.short) };
+        let owed = self.short - forgiven;
+        let cost = toll.spring.friction + toll.elastic + toll.lost + owed + spring_gain;
         let (scale, short) = match guided {
             true => (1.0, 0.0),
             false => balance(self.change(&toll.spring, state, |answer| &answer.sprung), cost),
@@ -365,6 +371,7 @@ impl Integrator {
             flow_friction: toll.flow.friction * payment.share,
             share: payment.share,
             short,
+            forgiven,
         }
     }
 
@@ -389,7 +396,7 @@ impl Integrator {
             self.apply(half, &mut state);
             self.react(&state, |answer| answer.damping.scaled(0.5));
         }
-        let Charge { mut impulse, mut torque, flow_friction, share, short } =
+        let Charge { mut impulse, mut torque, flow_friction, share, short, forgiven } =
             self.charge(toll, gained, &mut state);
         if let Some(half) = &half {
             self.apply(half, &mut state);
@@ -412,7 +419,7 @@ impl Integrator {
             friction: self.booked.friction + toll.spring.friction + flow_friction,
             damping: half.map_or(0.0, |_| self.damping.dissipated),
             wear: self.booked.wear + toll.wear * share,
-            history: self.booked.history + toll.lost,
+            history: self.booked.history + toll.lost - forgiven,
             external_work,
             ..Ledger::default()
         });
