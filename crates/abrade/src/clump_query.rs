@@ -74,6 +74,8 @@ impl ClumpQuery {
 }
 
 impl Query for ClumpQuery {
+    const HAS_PIECES: bool = true;
+
     // Out of line: a clump's loops would be copied into every root of every law.
     #[inline(never)]
     fn touch(&self, x: &Point3<f64>, n: &Vector3<f64>) -> Touch {

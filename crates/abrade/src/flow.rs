@@ -270,7 +270,7 @@ impl Flow for NormalPressure {
         // No bound by the advance: H per volume is the law, also where the face turns on a node.
         let out_of_contact = start.touch.overlap / start.cosine;
         let mut sunk = node.sink([0.0, out_of_contact], start, start.normal_force, excess);
-        if is_of_another_piece(start, &sunk) {
+        if Q::HAS_PIECES && is_of_another_piece(start, &sunk) {
             sunk = sink_to_another_piece(node, start, out_of_contact, excess);
         }
         let (normal, now) = sunk;

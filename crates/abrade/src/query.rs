@@ -32,6 +32,9 @@ pub(crate) trait Query {
     /// True for a lone ball.
     const IS_BALL: bool = false;
 
+    /// True for several balls and hulls, one of which may come upon a node that gets away from another.
+    const HAS_PIECES: bool = false;
+
     /// The touch of the node at `x` with outward normal `n`.
     fn touch(&self, x: &Point3<f64>, n: &Vector3<f64>) -> Touch;
 
