@@ -140,13 +140,6 @@ impl Query for BallQuery {
     }
 }
 
-#[cfg(feature = "bench")]
-impl BallQuery {
-    pub(crate) fn coefficient(&self) -> f64 {
-        self.coefficient
-    }
-}
-
 #[cfg(feature = "state")]
 impl BodyQuery {
     pub(crate) fn check(&self) -> Result<(), Fault> {
