@@ -29,7 +29,7 @@ pub(crate) enum Command {
     Clump(ClumpArguments),
     /// List the closed-form laws of wear, or evaluate one.
     Laws(LawsArguments),
-    /// Print the JSON schema of a scene, or its field reference.
+    /// Print the JSON schema of a scene or a study, or its field reference.
     Schema(SchemaArguments),
 }
 
@@ -231,4 +231,7 @@ pub(crate) struct SchemaArguments {
     /// Print the field reference in text: path, kind, unit, default, meaning.
     #[arg(long)]
     pub(crate) fields: bool,
+    /// The form of an erosion study in the place of that of a scene.
+    #[arg(long)]
+    pub(crate) study: bool,
 }

@@ -1,5 +1,6 @@
-//! `abrade schema`: the form of a scene file.
+//! `abrade schema`: the form of a scene file, or of a study's.
 
+use abrade_scene::Field;
 use anyhow::Context;
 
 use crate::arguments::SchemaArguments;
@@ -8,21 +9,25 @@ use crate::say::say;
 
 /// Prints the JSON schema, or the field reference.
 pub(crate) fn schema(arguments: &SchemaArguments) -> Result<(), Failure> {
+    let (what, schema) = match arguments.study {
+        true => ("study", abrade_study::erosion::schema()),
+        false => ("scene", abrade_scene::schema()),
+    };
     if arguments.fields {
-        return say(&fields());
+        return say(&fields(what, &abrade_scene::fields_of(&schema)));
     }
-    let text = serde_json::to_string_pretty(&abrade_scene::schema())
+    let text = serde_json::to_string_pretty(&schema)
         .context("the schema cannot be printed")
         .map_err(Failure::Run)?;
     say(&(text + "\n"))
 }
 
-fn fields() -> String {
-    let mut text = String::from(
-        "Fields of a scene: path, kind of value, unit of a bare number, default.\n\
+fn fields(what: &str, fields: &[Field]) -> String {
+    let mut text = format!(
+        "Fields of a {what}: path, kind of value, unit of a bare number, default.\n\
          <name> stands for any name, <i> for an index from 0.\n\n",
     );
-    for field in abrade_scene::fields() {
+    for field in fields {
         let unit = bracketed(&field.unit);
         let default = match field.default.as_str() {
             "" => String::new(),

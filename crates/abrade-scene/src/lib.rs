@@ -41,7 +41,7 @@ pub use grain::{Fit, GrainError, GrainSize, MadeGrain};
 pub use led_path::LedPath;
 pub use load::{load, load_text};
 pub use problem::{Mark, Problem, SceneError, Source};
-pub use reference::{Field, fields, schema};
+pub use reference::{Field, fields, fields_of, schema};
 pub use run::{Outcome, Precision, Progress, RunError, RunOptions, run};
 pub use scene::Scene;
 pub use size::{Size, SurfaceSize};

@@ -30,9 +30,13 @@ pub fn schema() -> Value {
 
 /// Every field of a scene, in the order of the schema.
 pub fn fields() -> Vec<Field> {
-    let root = schema();
-    let mut walk = Walk { root: &root, fields: Vec::new() };
-    walk.struct_fields("", "", &root);
+    fields_of(&schema())
+}
+
+/// Every field of a file with the JSON schema `root`, in its order.
+pub fn fields_of(root: &Value) -> Vec<Field> {
+    let mut walk = Walk { root, fields: Vec::new() };
+    walk.struct_fields("", "", root);
     walk.fields
 }
 

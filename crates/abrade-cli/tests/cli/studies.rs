@@ -1,4 +1,4 @@
-//! `study convergence`.
+//! `study convergence`, `study erosion`, `sweep`.
 
 use super::Folder;
 
@@ -35,5 +35,74 @@ fn bad_input_is_said_before_anything_runs() {
         assert_eq!(said.code, Some(2), "{more:?}: {}", said.err);
         assert!(said.err.contains(told), "{more:?}: {}", said.err);
         assert_eq!(folder.files(), ["empty.json", "scene.ron"]);
+    }
+}
+
+/// A study of two cases with a few impacts each.
+const EROSION: &str = r#"(version: 1, name: "two grains",
+  target: (material: (hardness: "1.7 GPa"), density: 7850.0, removal: AttackAngle(critical: "35 deg")),
+  grains: { "ball": (form: Sphere), "cube": (form: Polyhedron(kind: Cube)) },
+  density: 2650.0, size: Volume(diameter: "200 um"), speeds: ["98 m/s"], angles: ["30 deg"],
+  samples: (least: 4, most: 4))"#;
+
+/// Fails for a study that has to be made again, or whose parts do not come to the same.
+#[test]
+fn an_erosion_study_is_made_whole_or_in_parts() {
+    let folder = Folder::new("erosion");
+    folder.write("study.ron", EROSION);
+    let said = folder.abrade(&["study", "erosion", "study.ron"]);
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    for words in ["two grains\n", "cube at 98 m/s", "30         4", "runs/two grains"] {
+        assert!(said.out.contains(words), "{words}: {}", said.out);
+    }
+    let table = |place: &str| {
+        std::fs::read_to_string(folder.0.join(place).join("cases.csv")).expect("a table")
+    };
+    let whole = table("runs/two grains");
+    let sweep = |more: &[&str]| folder.abrade(&[&["sweep", "study.ron"], more].concat());
+    let part = sweep(&["--out", "a", "--shard", "1/2", "--jobs", "1"]);
+    assert_eq!(
+        (part.code, part.out.as_str()),
+        (Some(0), "1 of 2 cases are in a\n"),
+        "{}",
+        part.err
+    );
+    let early = sweep(&["--out", "a", "--merge"]);
+    assert_eq!(early.code, Some(1), "{}", early.out);
+    assert!(early.err.contains("1 of 2 cases are missing"), "{}", early.err);
+    assert_eq!(sweep(&["--out", "b", "--case", "0"]).code, Some(0));
+    let list = sweep(&["--out", "b", "--list"]).out;
+    assert!(list.contains("0  there") && list.contains("1  -"), "{list}");
+    assert_eq!(sweep(&["--out", "c", "--merge", "a", "b"]).code, Some(0));
+    assert_eq!(table("c"), whole);
+}
+
+/// One that ran first and looked later would leave a folder.
+#[test]
+fn a_wrong_study_is_shown_at_its_place() {
+    let folder = Folder::new("erosion_bad");
+    folder.write("study.ron", EROSION);
+    let cases: [(&[&str], &str); 4] = [
+        (&["study", "erosion", "study.ron", "--set", "samples.mots=3"], "did you mean `most`?"),
+        (
+            &[
+                "study",
+                "erosion",
+                "study.ron",
+                "--set",
+                "grains.cube.form=Sphere",
+                "--set",
+                "grains.cube.spheres=2",
+            ],
+            "made of spheres",
+        ),
+        (&["sweep", "study.ron", "--case", "2"], "the study has 2, from 0"),
+        (&["sweep", "study.ron", "--shard", "2/2"], "I from 0 to N - 1"),
+    ];
+    for (arguments, told) in cases {
+        let said = folder.abrade(arguments);
+        assert_eq!(said.code, Some(2), "{arguments:?}: {}", said.err);
+        assert!(said.err.contains(told), "{arguments:?}: {}", said.err);
+        assert_eq!(folder.files(), ["scene.ron", "study.ron"]);
     }
 }

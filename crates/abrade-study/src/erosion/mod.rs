@@ -66,6 +66,11 @@ pub fn make(
     Ok(true)
 }
 
+/// The JSON schema of a study's file.
+pub fn schema() -> serde_json::Value {
+    schemars::schema_for!(StudyFile).to_value()
+}
+
 /// True when `case` is in the results folder `out`.
 pub fn is_made(file: &StudyFile, beside: &Path, case: &Case, out: &Path) -> bool {
     Store::new(file, beside, out).read(case).is_some()
