@@ -4,18 +4,22 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use abrade::{HexStrip, Surface, SurfaceError, SurfaceLaws};
+use abrade::{Changes, HexStrip, Surface, SurfaceError, SurfaceLaws};
 use abrade_scene::scene::Form;
 use abrade_scene::{GrainError, GrainSize, MadeGrain, Progress};
+use nalgebra::Point3;
 use rayon::prelude::*;
 
 use super::file::{Plate, Size, StudyFile};
-use super::impact::{Impact, Miss, Shot};
+use super::impact::{Impact, Landed, Miss, Shot};
 use super::sample::Sample;
 use super::statistics::{self, Estimate};
 
 /// Half the edge of a fresh plate, in lengths of the grain.
 const REACH: f64 = 6.0;
+/// Impacts on a worn plate that are made beside each other; their number, so that results do not depend on
+/// that of the threads.
+const BESIDE: u32 = 8;
 /// Impacts on a worn plate between two looks at the user's wish to stop.
 const STRETCH: u32 = 64;
 
@@ -119,7 +123,7 @@ impl Case {
         let range = Range::new(file, folder, self)?;
         let impacts = match file.plate {
             Plate::Fresh => range.fresh(progress)?,
-            Plate::Worn { width } => range.worn(width, progress)?,
+            Plate::Worn { .. } => range.worn(progress)?,
         };
         Ok(impacts.map(|impacts| Made { pitch: range.plate.pitch(), impacts }))
     }
@@ -148,11 +152,8 @@ impl Range<'_> {
         while wants_more(self.file, &impacts) {
             let from = impacts.len() as u32;
             let to = (from + samples.least).min(samples.most);
-            let next: Result<Vec<_>, CaseError> = (from..to)
-                .into_par_iter()
-                .map(|k| self.land(k, [0.0; 2], &mut Surface::leaf(&self.plate)))
-                .collect();
-            impacts.extend(next?);
+            let landed = self.land_some(from..to, &self.plate)?;
+            impacts.extend(landed.into_iter().map(|landed| told(landed.outcome).0));
             if !progress.advance(contact_time(&impacts), share(self.file, &impacts)) {
                 return Ok(None);
             }
@@ -160,16 +161,17 @@ impl Range<'_> {
         Ok(Some(impacts))
     }
 
-    /// Impacts one after the other on one plate.
-    fn worn(&self, width: f64, progress: &mut dyn Progress) -> Result<Option<Impacts>, CaseError> {
+    /// Impacts one after the other on one plate: some at a time, each as if those beside it had not been.
+    /// Those that may have looked at what one before them has changed are made again, so that the result is
+    /// that of one after the other.
+    fn worn(&self, progress: &mut dyn Progress) -> Result<Option<Impacts>, CaseError> {
         let samples = &self.file.samples;
-        let mut plate = Surface::clone(&self.plate);
+        let mut plate = Arc::new(Surface::clone(&self.plate));
         let mut impacts = Impacts::new();
         while wants_more(self.file, &impacts) {
-            let to = (impacts.len() as u32 + STRETCH).min(samples.most);
-            for k in impacts.len() as u32..to {
-                let place = samples.at(k).place.map(|share| (share - 0.5) * width);
-                impacts.push(self.land(k, place, &mut plate)?);
+            let end = (impacts.len() as u32 + STRETCH).min(samples.most);
+            while (impacts.len() as u32) < end {
+                self.some_more(end, &mut plate, &mut impacts)?;
             }
             if !progress.advance(contact_time(&impacts), share(self.file, &impacts)) {
                 return Ok(None);
@@ -178,13 +180,41 @@ impl Range<'_> {
         Ok(Some(impacts))
     }
 
-    /// Impact `k`, about the place `about` of `plate`.
-    pub(crate) fn land(
+    /// The next few impacts on `plate`, up to `end`.
+    fn some_more(
         &self,
-        k: u32,
-        about: [f64; 2],
-        plate: &mut Surface,
-    ) -> Result<Result<Impact, String>, CaseError> {
+        end: u32,
+        plate: &mut Arc<Surface>,
+        impacts: &mut Impacts,
+    ) -> Result<(), CaseError> {
+        let from = impacts.len() as u32;
+        let to = (from + BESIDE).min(end);
+        let landed = self.land_some(from..to, plate)?;
+        let mut changed: Vec<[Point3<f64>; 2]> = Vec::new();
+        for (k, landed) in (from..to).zip(landed) {
+            let is_stale = changed.iter().any(|part| overlap(part, &landed.seen));
+            let landed = if is_stale { self.land(k, plate)? } else { landed };
+            let (impact, changes) = told(landed.outcome);
+            if let (Some(changes), Some(plate)) = (changes, Arc::get_mut(plate)) {
+                changed.extend(changes.bounds(plate.nodes()));
+                plate.apply(&changes);
+            }
+            impacts.push(impact);
+        }
+        Ok(())
+    }
+
+    /// The impacts `samples`, each on a leaf of `plate`.
+    fn land_some(
+        &self,
+        samples: std::ops::Range<u32>,
+        plate: &Arc<Surface>,
+    ) -> Result<Vec<Landed>, CaseError> {
+        samples.into_par_iter().map(|k| self.land(k, plate)).collect()
+    }
+
+    /// Impact `k` on a leaf of `plate`.
+    pub(crate) fn land(&self, k: u32, plate: &Arc<Surface>) -> Result<Landed, CaseError> {
         let Self { file, folder, case, .. } = self;
         let sample: Sample = file.samples.at(k);
         let own;
@@ -195,13 +225,29 @@ impl Range<'_> {
                 &own
             }
         };
-        let pitch = self.plate.pitch();
-        let cell = [3f64.sqrt() * pitch, pitch];
-        let at = [0, 1].map(|a| about[a] + sample.place[a] * cell[a]);
+        let pitch = plate.pitch();
+        let area = match file.plate {
+            Plate::Fresh => [3f64.sqrt() * pitch, pitch],
+            Plate::Worn { width } => [width; 2],
+        };
+        let at = [0, 1].map(|a| (sample.place[a] - 0.5) * area[a]);
         let Case { speed, angle, .. } = **case;
         let shot = Shot { grain, sample: &sample, at, speed, angle, accuracy: file.accuracy };
-        Ok(shot.land(plate).map_err(|miss: Miss| miss.to_string()))
+        Ok(shot.land(plate))
     }
+}
+
+/// An impact, or why it has no result, and what it changed.
+fn told(outcome: Result<(Impact, Changes), Miss>) -> (Result<Impact, String>, Option<Changes>) {
+    match outcome {
+        Ok((impact, changes)) => (Ok(impact), Some(changes)),
+        Err(miss) => (Err(miss.to_string()), None),
+    }
+}
+
+/// True where a box has a part in a part of the plate.
+fn overlap([low, high]: &[Point3<f64>; 2], [least, most]: &[[f64; 2]; 2]) -> bool {
+    (0..2).all(|axis| low[axis] <= most[axis] && least[axis] <= high[axis])
 }
 
 /// What impacts did, in their order.
@@ -269,5 +315,46 @@ impl StudyFile {
             ..SurfaceLaws::of(target.material.clone())
         };
         Surface::hex_strip(strip, laws)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Quiet;
+
+    impl Progress for Quiet {
+        fn advance(&mut self, _: f64, _: Option<f64>) -> bool {
+            true
+        }
+    }
+
+    /// Fails for impacts beside each other that do not see what those before them have changed, and for
+    /// sums that depend on who made them.
+    #[test]
+    fn impacts_beside_each_other_give_the_bits_of_one_after_the_other() {
+        let text = r#"(version: 1, name: "test", target: (material: (hardness: 1.7e9)),
+            grains: { "grit": (form: Grit(points: 8)) }, density: 2650.0,
+            size: Volume(diameter: 2e-4, spread: 0.2), speeds: [98.0], angles: ["30 deg"],
+            plate: Worn(width: 1e-3), samples: (least: 80, most: 80), resolution: 3.0)"#;
+        let kind = abrade_scene::FileKind { name: "study", version: 1 };
+        let file = abrade_scene::Document::<StudyFile>::read("test", text.into(), &[], kind);
+        let file = file.and_then(abrade_scene::Document::finish).expect("a study");
+        let case = &file.cases()[0];
+        let range = Range::new(&file, Path::new(""), case).expect("a plate");
+        let beside = range.worn(&mut Quiet).expect("impacts").expect("all of them");
+        let mut plate = Surface::clone(&range.plate);
+        let mut changed = 0;
+        for (k, impact) in (0..).zip(&beside) {
+            let fresh = told(range.land(k, &range.plate).expect("a grain").outcome).0;
+            let shared = Arc::new(plate);
+            let (alone, changes) = told(range.land(k, &shared).expect("a grain").outcome);
+            plate = Arc::try_unwrap(shared).expect("no leaf is left");
+            changes.iter().for_each(|changes| plate.apply(changes));
+            assert_eq!(*impact, alone, "{k}");
+            changed += usize::from(fresh != alone);
+        }
+        assert!(changed > 20, "{changed} of 80 met a crater");
     }
 }

@@ -44,8 +44,10 @@ pub(crate) fn craters(file: &StudyFile, folder: &Path) -> Result<Option<Drawn>, 
 /// The crater of the first sample of `case`; None where it has none.
 fn crater(file: &StudyFile, folder: &Path, case: &Case) -> Option<Crater> {
     let range = Range::new(file, folder, case).ok()?;
-    let mut plate = Surface::leaf(&range.plate);
-    range.land(0, [0.0; 2], &mut plate).ok()?.ok()?;
+    let landed = range.land(0, &range.plate).ok()?;
+    let (_, changes) = landed.outcome.ok()?;
+    let mut plate = Surface::clone(&range.plate);
+    plate.apply(&changes);
     let (sin, cos) = file.samples.at(0).azimuth.sin_cos();
     let reach = REACH * file.size.diameter();
     let nodes = plate.nodes().rest_position.iter().enumerate();

@@ -1,12 +1,13 @@
 //! One impact of a grain on a plate, from just above it until the whole grain is out again.
 
 use abrade::{
-    ATTACK_BINS, Body, Encounter, EncounterSettings, Instant, Ledger, Loads, Observer,
+    ATTACK_BINS, Body, Changes, Encounter, EncounterSettings, Instant, Ledger, Loads, Observer,
     PhysicsError, Placed, Shape, State, Surface, Until,
 };
 use abrade_scene::MadeGrain;
 use nalgebra::{Isometry3, Point3, Vector3};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 use super::sample::Sample;
 
@@ -97,35 +98,51 @@ pub(crate) enum Miss {
     Border,
 }
 
+/// An impact that was made, on a leaf of a plate.
+pub(crate) struct Landed {
+    /// What it did, and to which nodes.
+    pub(crate) outcome: Result<(Impact, Changes), Miss>,
+    /// The part of the plate, along x and y, that it may have looked at [m]: least and largest
+    /// coordinates.
+    pub(crate) seen: [[f64; 2]; 2],
+}
+
 impl Shot<'_> {
-    /// Makes the impact on `plate`.
-    pub(crate) fn land(&self, plate: &mut Surface) -> Result<Impact, Miss> {
+    /// Makes the impact on a leaf of `plate`.
+    pub(crate) fn land(&self, plate: &Arc<Surface>) -> Landed {
+        let start = self.start(self.grain.feret);
+        let mut track = Track::new(&self.grain.solid.shape, &start);
+        let outcome = self.make(plate, &start, &mut track);
+        // The candidates of a step lie within a pitch or two of the body.
+        let reach = self.grain.solid.shape.bounding_radius() + 4.0 * plate.pitch();
+        let [low, high] = track.way;
+        let seen = [low.map(|x| x - reach), high.map(|x| x + reach)];
+        Landed { outcome, seen }
+    }
+
+    fn make(
+        &self,
+        plate: &Arc<Surface>,
+        start: &State,
+        track: &mut Track<'_>,
+    ) -> Result<(Impact, Changes), Miss> {
         let solid = &self.grain.solid;
-        let diameter = self.grain.feret;
-        let start = self.start(diameter);
         let mut body = Body {
             shape: solid.shape.clone(),
             inertia: solid.inertia,
-            state: start,
+            state: *start,
             rotation_locked: false,
         };
-        let before = plate.worn();
+        let mut leaf = Surface::leaf(plate);
         let settings =
             EncounterSettings { accuracy: self.accuracy, ledger: true, step_limit: STEPS };
-        let mut encounter = Encounter::new(&body, [&*plate], settings)?;
-        let mut deepest = Deepest { shape: &solid.shape, depth: 0.0 };
-        let mut placed = [Placed::at_rest(plate, Isometry3::identity())];
-        let duration = FLIGHT * diameter / self.speed;
+        let mut encounter = Encounter::new(&body, [&leaf], settings)?;
+        let mut placed = [Placed::at_rest(&mut leaf, Isometry3::identity())];
+        let duration = FLIGHT * self.grain.feret / self.speed;
         let until = Until::FirstExit;
-        let advance = encounter.advance(
-            &mut body,
-            &mut placed,
-            &Loads::default(),
-            duration,
-            until,
-            &mut deepest,
-        )?;
-        let left = solid.inertia.kinetic_energy(&body.state) / solid.inertia.kinetic_energy(&start);
+        let advance =
+            encounter.advance(&mut body, &mut placed, &Loads::default(), duration, until, track)?;
+        let left = solid.inertia.kinetic_energy(&body.state) / solid.inertia.kinetic_energy(start);
         let is_embedded = !advance.exited || left < 1e-9;
         if is_embedded && left > STOPPED {
             return Err(Miss::Stays);
@@ -133,24 +150,22 @@ impl Shot<'_> {
         if !self.is_over(plate, &body.state.position) {
             return Err(Miss::Border);
         }
-        plate.settle();
-        let impact = self.told(&start, &body, encounter.ledger());
-        let after = plate.worn();
-        Ok(Impact {
-            wear_volume_m3: after.displaced() - before.displaced(),
-            normal_m3: after.normal - before.normal,
-            lateral_m3: after.lateral - before.lateral,
-            chip_m3: after.chip - before.chip,
-            removed_volume_m3: after.removed - before.removed,
-            displaced_by_attack_m3: std::array::from_fn(|bin| {
-                after.by_attack[bin] - before.by_attack[bin]
-            }),
-            depth_m: deepest.depth,
+        let changes = leaf.into_changes();
+        let gain = changes.gain();
+        let impact = Impact {
+            wear_volume_m3: gain.displaced(),
+            normal_m3: gain.normal,
+            lateral_m3: gain.lateral,
+            chip_m3: gain.chip,
+            removed_volume_m3: gain.removed,
+            displaced_by_attack_m3: gain.by_attack,
+            depth_m: track.depth,
             is_embedded,
             contact_s: advance.contact_time,
             node_evaluations: advance.node_evaluations,
-            ..impact
-        })
+            ..self.told(start, &body, encounter.ledger())
+        };
+        Ok((impact, changes))
     }
 
     fn start(&self, diameter: f64) -> State {
@@ -209,16 +224,30 @@ impl Shot<'_> {
     }
 }
 
-/// Sees how deep a body goes.
-struct Deepest<'a> {
+/// Sees where a body goes.
+struct Track<'a> {
     shape: &'a Shape,
     /// Below the unworn plate [m].
     depth: f64,
+    /// Least and largest coordinates of its centre, along x and y [m].
+    way: [[f64; 2]; 2],
 }
 
-impl Observer for Deepest<'_> {
+impl<'a> Track<'a> {
+    fn new(shape: &'a Shape, start: &State) -> Self {
+        let at = [start.position.x, start.position.y];
+        Self { shape, depth: 0.0, way: [at; 2] }
+    }
+}
+
+impl Observer for Track<'_> {
     fn observe(&mut self, instant: &Instant<'_, '_>) {
         let State { position, rotation, .. } = instant.state;
         self.depth = self.depth.max(-position.z - self.shape.lowest(rotation, &Vector3::z()));
+        let [low, high] = &mut self.way;
+        for (axis, x) in [position.x, position.y].into_iter().enumerate() {
+            low[axis] = low[axis].min(x);
+            high[axis] = high[axis].max(x);
+        }
     }
 }
