@@ -1,4 +1,4 @@
-//! What can go wrong while a file is made: which file, what was tried, what was found.
+//! What can go wrong while a file is made or read back: which file, what was tried, what was found.
 
 use std::error::Error as StdError;
 use std::fmt;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-/// A file that could not be made.
+/// A file that could not be made or read.
 #[derive(Debug, Error)]
 pub enum ReportError {
     /// The file system refused.
@@ -69,6 +69,14 @@ pub enum ReportError {
         /// Why.
         source: Box<dyn StdError + Send + Sync>,
     },
+    /// A file that is read back is not as this crate writes it.
+    #[error("{} is damaged, or was not written by abrade: {missing} is missing or wrong", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What was looked for.
+        missing: String,
+    },
     /// A value cannot be written as JSON.
     #[error("the summary cannot be written as JSON: {source}")]
     Json {
@@ -100,6 +108,8 @@ pub enum ReportError {
 /// What was tried on a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileAction {
+    /// Read it.
+    Read,
     /// Create it.
     Create,
     /// Write to it.
@@ -111,6 +121,7 @@ pub enum FileAction {
 impl fmt::Display for FileAction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
+            Self::Read => "read",
             Self::Create => "create",
             Self::Write => "write to",
             Self::Rename => "rename a finished file to",

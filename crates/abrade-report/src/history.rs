@@ -1,6 +1,8 @@
 //! `history.csv`: a row per instant, a unit in every column name. The file carries a temporary
 //! name until [`History::finish`].
 
+mod read;
+
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -10,6 +12,7 @@ use nalgebra::Vector3;
 use crate::atomic::PartialFile;
 use crate::error::{FileAction, ReportError};
 use crate::summary::EnergySummary;
+pub use read::read_places;
 
 /// What the columns of a history are; fixed over a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -1,4 +1,5 @@
-//! Files of a run: summary, history, ParaView files, meshes, picture, page.
+//! Files of a run: summary, history, ParaView files, meshes, picture, page; and the way back for
+//! those that are read again.
 //!
 //! Everything here takes `&`: nothing that writes can change a run. Every file appears under its
 //! final name only when it is complete ([`atomic`]). Which files a run writes, and when, is the

@@ -1,10 +1,11 @@
 //! `.pvd`: ParaView's list of the files of a time series.
 
 use std::fmt::Write as _;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::atomic;
-use crate::error::ReportError;
+use crate::error::{FileAction, ReportError};
 
 /// A time series `<stem>_0000.vtp`, `<stem>_0001.vtp`.. and its list `<stem>.pvd`, in one folder.
 ///
@@ -48,6 +49,22 @@ impl Series {
         atomic::write(&self.folder.join(format!("{}.pvd", self.stem)), self.text().as_bytes())
     }
 
+    /// The instants [s] and files of the list at `path`, in its order.
+    ///
+    /// # Errors
+    /// The file system refuses, or the list is not as [`Series::write`] leaves it.
+    pub fn read(path: &Path) -> Result<Vec<(f64, PathBuf)>, ReportError> {
+        let text = fs::read_to_string(path).map_err(ReportError::file(FileAction::Read, path))?;
+        let entry = |element: &str| {
+            let value = |name: &str| element.split_once(name)?.1.split('"').next();
+            let time = value("timestep=\"")?.parse().ok().filter(|time: &f64| time.is_finite())?;
+            Some((time, path.with_file_name(unescape(value("file=\"")?))))
+        };
+        let entries = text.split("<DataSet ").skip(1).map(entry).collect::<Option<_>>();
+        let missing = || ReportError::Damaged { path: path.into(), missing: "<DataSet".into() };
+        entries.ok_or_else(missing)
+    }
+
     fn file_name(&self, number: usize) -> String {
         format!("{}_{number:04}.vtp", self.stem)
     }
@@ -69,8 +86,14 @@ impl Series {
     }
 }
 
+/// The text that [`escape`] made safe.
+fn unescape(text: &str) -> String {
+    let marks = [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&#39;", "'"), ("&amp;", "&")];
+    marks.iter().fold(text.to_owned(), |text, (escaped, mark)| text.replace(escaped, mark))
+}
+
 /// Text as it may stand inside an element or a quoted attribute of XML and HTML.
-pub(crate) fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -98,10 +121,29 @@ mod tests {
         series.push(0.0);
         series.push(1.25e-6);
         series.write().expect("writable");
-        let text = std::fs::read_to_string(folder.path().join("surface.pvd")).expect("there");
+        let text = fs::read_to_string(folder.path().join("surface.pvd")).expect("there");
         let first = text.find("timestep=\"0e0\" part=\"0\" file=\"surface_0000.vtp\"");
         let second = text.find("timestep=\"1.25e-6\" part=\"0\" file=\"surface_0001.vtp\"");
         assert!(first.expect("the first file") < second.expect("the second file"), "{text}");
+    }
+
+    /// A reader that left the marks of XML in names would look for files that are not there; one that
+    /// skipped an entry it cannot read would shift all later ones.
+    #[test]
+    fn a_list_reads_back_with_its_folder() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let mut series = Series::new(folder.path(), "surface_a&amp<b>");
+        let (first, time) = (series.next_path(), 0.1 + 0.2);
+        series.push(0.0);
+        let second = series.next_path();
+        series.push(time);
+        series.write().expect("writable");
+        let path = folder.path().join("surface_a&amp<b>.pvd");
+        let read = Series::read(&path).expect("readable");
+        assert_eq!(read, [(0.0, first), (time, second)]);
+        let text = fs::read_to_string(&path).expect("there").replace("0e0", "soon");
+        fs::write(&path, text).expect("writable");
+        assert!(matches!(Series::read(&path), Err(ReportError::Damaged { .. })));
     }
 
     /// A program that pasted names as they are would break the page, or let a scene's name run.

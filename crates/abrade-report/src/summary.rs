@@ -2,13 +2,14 @@
 //! interface; an absent value is `null`, never a missing key.
 
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::Path;
 
 use abrade::{Ledger, Nodes, State, Worn};
 use serde::{Deserialize, Serialize};
 
 use crate::atomic;
-use crate::error::ReportError;
+use crate::error::{FileAction, ReportError};
 
 /// The whole of `summary.json`, in the order of its keys.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -205,6 +206,19 @@ impl Summary {
         let mut text = serde_json::to_string_pretty(self)?;
         text.push('\n');
         Ok(text)
+    }
+
+    /// Reads the file `path`.
+    ///
+    /// # Errors
+    /// The file system refuses, or a key is missing.
+    pub fn read(path: &Path) -> Result<Self, ReportError> {
+        let text = fs::read_to_string(path).map_err(ReportError::file(FileAction::Read, path))?;
+        let damaged = |source: serde_json::Error| ReportError::Damaged {
+            path: path.to_owned(),
+            missing: format!("{source}: a key or value"),
+        };
+        serde_json::from_str(&text).map_err(damaged)
     }
 
     /// Writes the file `path`.

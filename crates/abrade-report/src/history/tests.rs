@@ -100,3 +100,27 @@ fn an_unfinished_history_stays_under_its_temporary_name() {
     assert!(name.to_string_lossy().ends_with(".partial"), "{name:?}");
     assert!(!path.exists());
 }
+
+/// Fails for a reader that takes the columns of another body, whose name ends alike, or the speed
+/// for the place.
+#[test]
+fn places_are_found_by_the_body_and_read_back_exactly() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("history.csv");
+    let names = ["a_ball".to_owned(), "ball".to_owned()];
+    let columns = Columns { bodies: names.to_vec(), ..Columns::default() };
+    let mut history = History::create(&path, columns).expect("writable");
+    let at = |x: f64| BodyRow { state: State::at(Point3::new(x, 2.0 * x, 0.1 + 0.2)), ..body() };
+    for time in [0.0, 1.0] {
+        let bodies = [at(-7.0), at(time)];
+        let (surfaces, carriers, energies) = (&[], &[], None);
+        let row = Row { time, bodies: &bodies, surfaces, carriers, energies };
+        history.push(&row).expect("writable");
+    }
+    history.finish().expect("renamed");
+    let places = read_places(&path, &names[1..]).expect("readable");
+    let expected = [0.0, 1.0].map(|x| Point3::new(x, 2.0 * x, 0.1 + 0.2));
+    assert_eq!(places, [expected.to_vec()]);
+    let error = read_places(&path, &["cube".into()]).expect_err("no such body");
+    assert!(error.to_string().contains("cube_x_m"), "{error}");
+}

@@ -22,6 +22,11 @@ pub(super) fn blend(under: Rgb, over: Rgb, share: f64) -> Rgb {
     std::array::from_fn(|i| mix(under[i], over[i]))
 }
 
+/// The colours from no depth to the largest, in equal steps of depth.
+pub fn depth_colours() -> [[u8; 3]; 256] {
+    std::array::from_fn(|i| of_share(i as f64 / 255.0))
+}
+
 /// Lightness, chroma and hue [rad] at no depth and at the largest.
 const SHALLOW: [f64; 3] = [0.93, 0.150, 1.83];
 const DEEP: [f64; 3] = [0.22, 0.120, 5.15];

@@ -29,6 +29,7 @@ use crate::atomic;
 use crate::error::ReportError;
 use crate::units::{counted, of_length, of_volume, with_unit};
 use canvas::{Align, Canvas, Rect, Text};
+pub use colour::depth_colours;
 pub use solid::SolidPicture;
 use view::View;
 

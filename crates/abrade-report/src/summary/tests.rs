@@ -96,6 +96,19 @@ fn the_file_reads_back_the_same() {
     let path = folder.path().join("summary.json");
     let summary = Summary { wall: 0.1 + 0.2, stop: Some("all rebounded".into()), ..sample() };
     summary.write(&path).expect("writable");
-    let text = std::fs::read_to_string(&path).expect("there");
+    let text = fs::read_to_string(&path).expect("there");
     assert_eq!(serde_json::from_str::<Summary>(&text).expect("JSON"), summary);
+}
+
+/// Fails for a key that is written under one name and read under another, and for a half file that
+/// passes for a run.
+#[test]
+fn a_summary_reads_back_as_it_was() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("summary.json");
+    sample().write(&path).expect("writable");
+    assert_eq!(Summary::read(&path).expect("readable"), sample());
+    fs::write(&path, "{\"scene\": \"half\"}").expect("writable");
+    let error = Summary::read(&path).expect_err("half");
+    assert!(error.to_string().contains("missing field `abrade`"), "{error}");
 }

@@ -1,10 +1,11 @@
 //! ParaView PolyData (`.vtp`): what a surface and the bodies look like at an instant.
 //!
 //! The format is VTK's XML, arrays appended raw and compressed by zlib. `poly` knows the file,
-//! `block` the compressed arrays; this page knows which arrays there are.
+//! `block` the compressed arrays, `read` the way back; this page knows which arrays there are.
 
 mod block;
 pub(crate) mod poly;
+mod read;
 
 use std::path::Path;
 
@@ -14,6 +15,7 @@ use nalgebra::{Isometry3, Point3, Vector3};
 use crate::error::ReportError;
 use crate::mesh::Mesh;
 use poly::{Array, Place, PolyData};
+pub use read::VtpFile;
 
 /// Writes a surface at `pose`: the nodes where they are now (world), with the point arrays
 /// `depth_m`, `rest_area_m2` and `normal` (world), and `hardness_Pa` where `hardness` [Pa] is given

@@ -127,7 +127,8 @@ impl PolyData {
             }
             let _ = writeln!(text, "</{element}>");
         }
-        text.push_str("</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_");
+        text.push_str("</Piece>\n</PolyData>\n");
+        text.push_str(DATA);
         (text, order)
     }
 
@@ -156,6 +157,9 @@ pub(crate) fn check_triangles(triangles: &[[u32; 3]], points: usize) -> Result<(
 const HEAD: &str = "<?xml version=\"1.0\"?>\n\
     <VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" \
     header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<PolyData>\n";
+
+/// What the arrays stand behind.
+pub(super) const DATA: &str = "<AppendedData encoding=\"raw\">\n_";
 
 const FOOT: &[u8] = b"\n</AppendedData>\n</VTKFile>\n";
 
