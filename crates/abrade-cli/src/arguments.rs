@@ -25,6 +25,8 @@ pub(crate) enum Command {
     Study(StudyCommand),
     /// Make an erosion study in parts: some of its cases, anywhere, and merge them.
     Sweep(SweepArguments),
+    /// Make a page that shows a finished run: worn surface, bodies, time, cross-section.
+    View(ViewArguments),
     /// Look over a clump file, or convert it.
     Clump(ClumpArguments),
     /// List the closed-form laws of wear, or evaluate one.
@@ -57,6 +59,16 @@ pub(crate) struct RunArguments {
     /// Print the summary file's content, and nothing else.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// Arguments of `view`.
+#[derive(Args)]
+pub(crate) struct ViewArguments {
+    /// Folder of the run, as `abrade run` names it.
+    pub(crate) folder: PathBuf,
+    /// File to write [default: view.html in the folder].
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
 }
 
 /// What a study asks.

@@ -21,6 +21,7 @@ mod say;
 mod schema;
 mod study;
 mod sweep;
+mod view;
 
 use std::process::ExitCode;
 
@@ -38,6 +39,7 @@ fn main() -> ExitCode {
         Command::Clump(arguments) => clump::clump(&arguments),
         Command::Laws(arguments) => laws::laws(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),
+        Command::View(arguments) => view::view(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

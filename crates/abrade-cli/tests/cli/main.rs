@@ -11,6 +11,7 @@ mod bad_values;
 mod bad_words;
 mod commands;
 mod studies;
+mod views;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,0 +1,53 @@
+//! `abrade view`: a page of a finished run.
+
+use abrade_report::quantity_text::memory;
+use abrade_view::{Page, ViewError};
+
+use crate::arguments::ViewArguments;
+use crate::failure::Failure;
+use crate::say;
+
+/// Size of a page above which browsers take long to open it [bytes].
+const LARGE: usize = 50_000_000;
+
+/// Reads the run's folder, writes the page and says where it is.
+pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
+    let page = Page::of_run(&arguments.folder).map_err(failure)?;
+    let path = arguments.out.clone().unwrap_or_else(|| arguments.folder.join("view.html"));
+    page.write(&path).map_err(|error| Failure::Input(error.into()))?;
+    let Page { html, instants, nodes, bodies } = &page;
+    let counted = |count: &usize, one: &str, more: &str| match count {
+        1 => format!("1 {one}"),
+        _ => format!("{count} {more}"),
+    };
+    let text = format!(
+        "{}\n  {}: {}, {}, {}\n",
+        path.display(),
+        memory(html.len() as f64),
+        counted(instants, "instant", "instants"),
+        counted(nodes, "node", "nodes"),
+        counted(bodies, "body", "bodies"),
+    );
+    say::say(&text)?;
+    if html.len() > LARGE {
+        eprintln!(
+            "note: a page of more than {} opens slowly; a longer `every` in `Surface(every: ..)`, \
+             or a coarser pitch, makes it smaller",
+            memory(LARGE as f64)
+        );
+    }
+    Ok(())
+}
+
+/// A folder that holds no run to show is bad input; a file that cannot be read is a failure.
+fn failure(error: ViewError) -> Failure {
+    match error {
+        ViewError::NoRun { .. } | ViewError::NoSurface { .. } | ViewError::NoInstant { .. } => {
+            Failure::Input(error.into())
+        }
+        ViewError::File(_)
+        | ViewError::Mixed { .. }
+        | ViewError::Bent { .. }
+        | ViewError::Json { .. } => Failure::Run(error.into()),
+    }
+}
