@@ -76,7 +76,7 @@ fn assembled(title: &str, data: &str) -> String {
         ("{{style}}", STYLE.to_owned()),
         ("{{title}}", pvd::escape(title)),
         ("{{data}}", data),
-        ("{{three}}", THREE.to_owned()),
+        ("{{three}}", format!("/*\n{THREE_LICENSE}*/\n{THREE}")),
         ("{{scripts}}", scripts),
     ];
     let (mut html, mut rest) = (String::new(), PAGE);
@@ -92,13 +92,16 @@ const PAGE: &str = include_str!("page/page.html");
 const STYLE: &str = include_str!("page/style.css");
 /// One script for old and new browsers, which sets the global `THREE`; see its README.
 const THREE: &str = include_str!("../vendor/three/three.min.js");
+/// Goes with every copy, so with every page.
+const THREE_LICENSE: &str = include_str!("../vendor/three/LICENSE");
 /// Joined into one module: an inline module of a file from disk cannot import another.
-const SCRIPTS: [&str; 9] = [
+const SCRIPTS: [&str; 10] = [
     include_str!("page/units.js"),
     include_str!("page/data.js"),
     include_str!("page/colour.js"),
     include_str!("page/parts.js"),
     include_str!("page/section.js"),
+    include_str!("page/enclosing.js"),
     include_str!("page/chart.js"),
     include_str!("page/stage.js"),
     include_str!("page/panel.js"),

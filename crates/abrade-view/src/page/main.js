@@ -182,24 +182,6 @@ function exaggerateBy(slider, output, run, bounds, stage) {
   show();
 }
 
-/** Surfaces in whose box a body or another surface is at some instant: drums, pipes. */
-function enclosingSurfaces(run) {
-  const last = run.times.length - 1;
-  const sampled = new Set([0, 0.25, 0.5, 0.75, 1].map((share) => Math.round(share * last)));
-  const solids = run.bodies ? [...run.surfaces, run.bodies] : run.surfaces;
-  const encloses = (surface, number) => {
-    const { low, high } = boxOfPoints(placed(surface.instants[number]));
-    const isInside = (pose) => [0, 1, 2].every((i) => pose[i] > low[i] && pose[i] < high[i]);
-    const others = solids.filter((solid) => solid !== surface).map((solid) => solid.instants[number]);
-    return others.some((instant) => {
-      const parts = Array.from({ length: instant.shape.parts }, (_, part) => poseOf(instant, part));
-      return parts.some(isInside);
-    });
-  };
-  const single = run.surfaces.filter((surface) => surface.shapes[0].parts === 1);
-  return single.filter((surface) => [...sampled].some((number) => encloses(surface, number)));
-}
-
 /** The plane follows the pointer that takes its knob. */
 function dragPlane(stage, state, movePlane) {
   const reach = 22;

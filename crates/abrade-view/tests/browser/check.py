@@ -60,7 +60,9 @@ def settle(browser):
 
 def length(said):
     """The first length in a text [m]."""
-    number, unit = re.search(r"([−\d.]+)\u00a0(m|mm|µm|nm)\b", said).groups()
+    found = re.search(r"([−\d.]+)\u00a0(m|mm|µm|nm)\b", said)
+    assert found, f"no length in `{said}`"
+    number, unit = found.groups()
     return float(number.replace("−", "-")) * {"m": 1, "mm": 1e-3, "µm": 1e-6, "nm": 1e-9}[unit]
 
 
