@@ -29,14 +29,21 @@ pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
         counted(bodies, "body", "bodies"),
     );
     say::say(&text)?;
-    if html.len() > LARGE {
-        eprintln!(
-            "note: a page of more than {} opens slowly; a longer `every` in `Surface(every: ..)`, \
-             or a coarser pitch, makes it smaller",
-            memory(LARGE as f64)
-        );
+    if let Some(note) = size_note(html.len()) {
+        eprintln!("{note}");
     }
     Ok(())
+}
+
+/// What to say of a page of `size` [bytes] that is too large to open at once.
+fn size_note(size: usize) -> Option<String> {
+    let large = memory(LARGE as f64);
+    (size > LARGE).then(|| {
+        format!(
+            "note: a page of more than {large} opens slowly; a longer `every` in \
+             `Surface(every: ..)`, or a coarser pitch, makes it smaller"
+        )
+    })
 }
 
 /// A folder that holds no run to show is bad input; a file that cannot be read is a failure.
@@ -49,5 +56,18 @@ fn failure(error: ViewError) -> Failure {
         | ViewError::Mixed { .. }
         | ViewError::Bent { .. }
         | ViewError::Json { .. } => Failure::Run(error.into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Fails for a note that comes with every page, or never.
+    #[test]
+    fn only_a_large_page_is_noted() {
+        assert_eq!(size_note(LARGE), None);
+        let note = size_note(LARGE + 1).expect("a note");
+        assert!(note.starts_with("note: a page of more than 50 MB opens slowly"), "{note}");
     }
 }

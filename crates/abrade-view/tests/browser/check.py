@@ -17,6 +17,7 @@ from devtools import FLAGS, Browser, NoBrowser
 from vtp import arrays
 
 ROOT = Path(__file__).resolve().parents[4]
+ABRADE = ROOT / "target" / "release" / "abrade"
 RUNS = ROOT / "target" / "view"
 READY = "document.body && document.body.dataset.ready"
 FRAME = ".frame"
@@ -35,11 +36,11 @@ SCENES = {
 def view(name):
     """Runs a scene and makes its page."""
     scene, sets = SCENES[name]
-    abrade, folder = ROOT / "target" / "release" / "abrade", RUNS / name
+    folder = RUNS / name
     changes = [word for change in sets for word in ("--set", change)]
-    subprocess.run([abrade, "run", ROOT / "scenes" / scene, "--out", folder, *changes],
+    subprocess.run([ABRADE, "run", ROOT / "scenes" / scene, "--out", folder, *changes],
                    check=True, stdout=subprocess.DEVNULL)
-    subprocess.run([abrade, "view", folder], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([ABRADE, "view", folder], check=True, stdout=subprocess.DEVNULL)
     return folder / "view.html"
 
 
@@ -296,6 +297,8 @@ def without_webgl(browser, page):
 
 
 def main():
+    if not ABRADE.exists():
+        sys.exit(f"{ABRADE} is missing: cargo build --release --bin abrade")
     RUNS.mkdir(parents=True, exist_ok=True)
     done = []
     with Browser() as browser:
