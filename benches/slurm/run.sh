@@ -63,6 +63,7 @@ submit() { sbatch --parsable --array=0-3 --chdir="$dir" "$top/studies/slurm.sh";
 job=$(submit)
 # Killed when its shard has made a case and has others to make.
 for _ in $(seq 600); do [ -e "$OUT/cases/0001.jsonl" ] && break; sleep 0.1; done
+[ -e "$OUT/cases/0001.jsonl" ] || fail "the second shard makes nothing, see $dir"
 scancel --full --signal=KILL "${job}_1" || fail "there was nothing left to kill"
 drain
 all=$("$ABRADE" sweep "$STUDY" --out "$OUT" --list | wc -l)

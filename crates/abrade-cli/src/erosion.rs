@@ -27,12 +27,11 @@ pub(crate) fn erosion(arguments: &ErosionArguments) -> Result<(), Failure> {
     opened.tell()
 }
 
-/// Reads and checks the study, and finds out whether its results can be written.
+/// Reads and checks the study.
 pub(crate) fn open(arguments: &ErosionArguments) -> Result<Opened, Failure> {
     let file = erosion::load(&arguments.study, &arguments.sets)?;
     let beside = arguments.study.parent().unwrap_or(Path::new("")).to_owned();
     let out = output_folder::chosen(arguments.out.as_deref(), &file.name);
-    output_folder::probe(&out)?;
     if let Some(jobs) = arguments.jobs {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(jobs)).build_global();
         pool.context("no threads").map_err(Failure::Run)?;
@@ -43,6 +42,7 @@ pub(crate) fn open(arguments: &ErosionArguments) -> Result<Opened, Failure> {
 impl Opened {
     /// Makes those of `cases` that are not there.
     pub(crate) fn make(&self, cases: &[Case]) -> Result<(), Failure> {
+        output_folder::make(&self.out)?;
         let stop = interrupt::flag();
         let mut bar = Bar::new(&stop);
         let made = erosion::make(&self.file, &self.beside, cases, &self.out, &mut bar);
@@ -56,6 +56,7 @@ impl Opened {
     /// Writes the tables of the cases that are there, and shows them.
     pub(crate) fn tell(&self) -> Result<(), Failure> {
         let result = erosion::result(&self.file, &self.beside, &self.out).map_err(failure)?;
+        output_folder::make(&self.out)?;
         erosion::write(&result, &self.beside, &self.out).map_err(failure)?;
         let place = self.out.display();
         say::say(&format!(

@@ -14,20 +14,31 @@ pub(crate) fn chosen(out: Option<&Path>, name: &str) -> PathBuf {
     }
 }
 
+/// Makes `folder` and finds out whether it can be written to. Other processes may do the same.
+pub(crate) fn make(folder: &Path) -> Result<(), Failure> {
+    refused(folder, std::fs::create_dir_all(folder).and_then(|()| try_file(folder)))
+}
+
 /// Finds out by trying whether `folder` can be made and written to; leaves nothing behind.
 pub(crate) fn probe(folder: &Path) -> Result<(), Failure> {
     let missing: Vec<&Path> = folder
         .ancestors()
         .take_while(|path| !path.as_os_str().is_empty() && !path.exists())
         .collect();
-    let tried = std::fs::create_dir_all(folder).and_then(|()| {
-        let file = folder.join(format!(".abrade-{}", std::process::id()));
-        std::fs::write(&file, b"").and_then(|()| std::fs::remove_file(&file))
-    });
+    let tried = std::fs::create_dir_all(folder).and_then(|()| try_file(folder));
     for path in missing {
         // What was made here is empty again; what could not be made is not there.
         let _ = std::fs::remove_dir(path);
     }
+    refused(folder, tried)
+}
+
+fn try_file(folder: &Path) -> std::io::Result<()> {
+    let file = folder.join(format!(".abrade-{}", std::process::id()));
+    std::fs::write(&file, b"").and_then(|()| std::fs::remove_file(&file))
+}
+
+fn refused(folder: &Path, tried: std::io::Result<()>) -> Result<(), Failure> {
     tried
         .with_context(|| format!("the output folder `{}` cannot be written to", folder.display()))
         .map_err(Failure::Input)

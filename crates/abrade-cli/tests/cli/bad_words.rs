@@ -33,7 +33,7 @@ fn an_unknown_variant() {
   --> scene.ron:20:14
    |
 20 |       shape: Bal(radius: "3 mm"),
-   |              ^^^ expected `Ball`, `Cuboid`, `Polyhedron`, `ConvexHull` or `Clump`
+   |              ^^^ expected `Ball`, `Cuboid`, `Polyhedron`, `ConvexHull`, `Clump` or `Grain`
    |
    = help: did you mean `Ball`?
 

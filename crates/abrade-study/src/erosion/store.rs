@@ -30,7 +30,7 @@ struct Head {
 #[derive(Serialize, Deserialize)]
 #[serde(untagged)]
 enum Line {
-    Hit(Impact),
+    Hit(Box<Impact>),
     Miss { miss: String },
 }
 
@@ -73,7 +73,7 @@ impl Store {
         let mut text = serde_json::to_string(&head).map_err(json)?;
         for impact in &made.impacts {
             let line = match impact {
-                Ok(impact) => Line::Hit(*impact),
+                Ok(impact) => Line::Hit(Box::new(*impact)),
                 Err(miss) => Line::Miss { miss: miss.clone() },
             };
             let _ = write!(text, "\n{}", serde_json::to_string(&line).map_err(json)?);
@@ -96,7 +96,7 @@ impl Store {
             return None;
         }
         let impact = |line: &str| match serde_json::from_str(line).ok()? {
-            Line::Hit(impact) => Some(Ok(impact)),
+            Line::Hit(impact) => Some(Ok(*impact)),
             Line::Miss { miss } => Some(Err(miss)),
         };
         let impacts = lines.map(impact).collect::<Option<Vec<_>>>()?;

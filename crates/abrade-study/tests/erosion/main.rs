@@ -12,7 +12,7 @@ use abrade_scene::Progress;
 use abrade_study::erosion::{self, Case, Erosion, StudyFile};
 
 /// Never stops.
-pub struct Quiet;
+struct Quiet;
 
 impl Progress for Quiet {
     fn advance(&mut self, _: f64, _: Option<f64>) -> bool {
@@ -21,7 +21,7 @@ impl Progress for Quiet {
 }
 
 /// The study of this text.
-pub fn study(text: &str) -> StudyFile {
+fn study(text: &str) -> StudyFile {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("study.ron");
     std::fs::write(&path, text).expect("a file");
@@ -29,12 +29,12 @@ pub fn study(text: &str) -> StudyFile {
 }
 
 /// Makes `cases` in `out`.
-pub fn make(file: &StudyFile, cases: &[Case], out: &Path) {
+fn make(file: &StudyFile, cases: &[Case], out: &Path) {
     assert!(erosion::make(file, Path::new(""), cases, out, &mut Quiet).expect("cases"));
 }
 
 /// The whole study, made in a folder of its own.
-pub fn whole(file: &StudyFile) -> Erosion {
+fn whole(file: &StudyFile) -> Erosion {
     let folder = tempfile::tempdir().expect("a folder");
     make(file, &file.cases(), folder.path());
     erosion::result(file, Path::new(""), folder.path()).expect("a result")
@@ -42,10 +42,10 @@ pub fn whole(file: &StudyFile) -> Erosion {
 
 /// A sphere's speed at which m V^2 / (2 pi H R^3) = 0.01, for a density of 2650 kg/m3 and a hardness of
 /// 1.7 GPa [m/s].
-pub const SPEED: f64 = 98.1;
+const SPEED: f64 = 98.1;
 
 /// A study of `grains` at `angles`, with `least` impacts per case.
-pub fn text(grains: &str, angles: &str, least: u32) -> String {
+fn text(grains: &str, angles: &str, least: u32) -> String {
     format!(
         "(version: 1, name: \"test\",
           target: (material: (hardness: \"1.7 GPa\"), removal: AttackAngle(critical: \"35 deg\")),
