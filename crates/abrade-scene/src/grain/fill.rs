@@ -30,7 +30,7 @@ impl Fit {
 }
 
 /// Points along the longest edge of a facet.
-const STEPS: u32 = 24;
+const STEPS: u32 = 48;
 /// Radius of a new sphere over the distance that it is to close, at least: half of it leaves 0.37 of
 /// the distance at the corner of a cube, and a tenth would leave no room to go on.
 const LEAST: f64 = 0.5;

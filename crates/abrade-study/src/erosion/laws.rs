@@ -8,6 +8,9 @@ use super::file::StudyFile;
 /// Newtons per kilogram-force, in which Brinell's number counts pressures [kgf/mm2].
 const KILOGRAM_FORCE: f64 = 9.806_65e6;
 
+/// Volume per mass that counts as none [mm3/kg].
+const TINY: f64 = 1e-12;
+
 /// A law at the conditions of a study.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Prediction {
@@ -34,7 +37,11 @@ pub(crate) fn predictions_at(file: &StudyFile, speed: f64, angles: &[f64]) -> Ve
     let of = |name, given: String, volume: &dyn Fn(&Impact) -> f64| Prediction {
         name,
         given,
-        volumes: impacts().map(|impact| volume(&impact)).collect(),
+        // The cosine of a right angle is round-off.
+        volumes: impacts()
+            .map(|impact| volume(&impact))
+            .map(|v| if v < TINY { 0.0 } else { v })
+            .collect(),
     };
     let gigapascal = hardness / 1e9;
     let finnie = Finnie1960::of(hardness);

@@ -150,7 +150,7 @@ impl Erosion {
         let degrees = |angle: f64| format!("{} deg", digits(angle.to_degrees()));
         let head = ["grain".to_owned()].into_iter().chain(criticals.iter().map(|c| degrees(*c)));
         let row = |s: &&super::Sensitivity| {
-            [s.grain.clone()].into_iter().chain(s.ratios.iter().map(|(_, r)| told(r))).collect()
+            [s.grain.clone()].into_iter().chain(s.ratios.iter().map(|(_, r)| sign(r))).collect()
         };
         Some(Part::Table {
             heading: format!("Debris of {reference} over that of the grain at {}, by critical angle", degrees(*nearest)),
