@@ -142,36 +142,25 @@ impl Reaction {
     }
 }
 
-/// Where the energies of nodes are booked.
+/// Where the energies of nodes are booked; nowhere, if no ledger is kept.
 pub(crate) trait Books {
     /// Books one node's step, of whose spring the excess may be left to do.
-    fn take<E: Elastic, F: Flow, Q: Query>(
-        &mut self,
-        flow: &F,
-        answer: &mut Answer,
-        node: &NodeStep<'_, E, Q>,
-        old: &Spring,
-    );
-
-    /// Books a spring that was let go, maybe pressed.
-    fn let_go<E: Elastic, Q: Query>(&mut self, node: &NodeStep<'_, E, Q>, old: &Spring);
-}
-
-/// No ledger is kept.
-impl Books for () {
     #[inline(always)]
     fn take<E: Elastic, F: Flow, Q: Query>(
         &mut self,
-        _: &F,
-        _: &mut Answer,
-        _: &NodeStep<'_, E, Q>,
-        _: &Spring,
+        _flow: &F,
+        _answer: &mut Answer,
+        _node: &NodeStep<'_, E, Q>,
+        _old: &Spring,
     ) {
     }
 
+    /// Books a spring that was let go, maybe pressed.
     #[inline(always)]
-    fn let_go<E: Elastic, Q: Query>(&mut self, _: &NodeStep<'_, E, Q>, _: &Spring) {}
+    fn let_go<E: Elastic, Q: Query>(&mut self, _node: &NodeStep<'_, E, Q>, _old: &Spring) {}
 }
+
+impl Books for () {}
 
 impl Books for Ledger {
     // Out of line, so that a count of calls shows who pays for it.

@@ -81,22 +81,10 @@ const MM3: f64 = 1e9;
 const STILL: f64 = 0.02;
 
 /// Displaced volume per mass of grains.
-pub const WEAR: Quantity = Quantity {
-    name: "wear_mm3_per_kg",
-    above: Term::Of(|i| i.wear_volume_m3 * MM3),
-    below: |i| i.mass_kg,
-};
+pub const WEAR: Quantity = per_mass("wear_mm3_per_kg", |i| i.wear_volume_m3 * MM3);
 
 /// Debris per mass of grains.
-pub const REMOVED: Quantity = Quantity {
-    name: "removed_mm3_per_kg",
-    above: Term::Of(|i| i.removed_volume_m3 * MM3),
-    below: |i| i.mass_kg,
-};
-
-/// How deep a grain goes.
-pub const DEPTH: Quantity =
-    Quantity { name: "depth_m", above: Term::Of(|i| i.depth_m), below: one };
+pub const REMOVED: Quantity = per_mass("removed_mm3_per_kg", |i| i.removed_volume_m3 * MM3);
 
 /// Debris per mass of grains, were it what faces cut at angles of attack from a multiple `bin` of
 /// [`ATTACK_BIN`](abrade::ATTACK_BIN) on.
@@ -109,64 +97,42 @@ pub(crate) fn cut_from(bin: usize) -> Quantity {
 pub const ALL: [Quantity; 20] = [
     WEAR,
     REMOVED,
-    Quantity { name: "wear_volume_m3", above: Term::Of(|i| i.wear_volume_m3), below: one },
-    Quantity { name: "removed_volume_m3", above: Term::Of(|i| i.removed_volume_m3), below: one },
-    Quantity {
-        name: "wear_energy_share",
-        above: Term::Of(|i| i.energy_wear * i.energy_j),
-        below: energy,
-    },
-    Quantity {
-        name: "friction_energy_share",
-        above: Term::Of(|i| i.energy_friction * i.energy_j),
-        below: energy,
-    },
-    Quantity {
-        name: "translation_energy_share",
-        above: Term::Of(|i| i.energy_translation * i.energy_j),
-        below: energy,
-    },
-    Quantity {
-        name: "rotation_energy_share",
-        above: Term::Of(|i| i.energy_rotation * i.energy_j),
-        below: energy,
-    },
-    Quantity {
-        name: "other_energy_share",
-        above: Term::Of(|i| i.energy_other * i.energy_j),
-        below: energy,
-    },
-    Quantity {
-        name: "lateral_share",
-        above: Term::Of(|i| i.lateral_m3),
-        below: |i| i.wear_volume_m3,
-    },
-    Quantity { name: "chip_share", above: Term::Of(|i| i.chip_m3), below: |i| i.wear_volume_m3 },
-    Quantity {
-        name: "removed_share",
-        above: Term::Of(|i| i.removed_volume_m3),
-        below: |i| i.wear_volume_m3,
-    },
-    DEPTH,
-    Quantity { name: "restitution", above: Term::Of(|i| i.restitution), below: one },
-    Quantity { name: "restitution_normal", above: Term::Of(|i| i.restitution_normal), below: one },
-    Quantity {
-        name: "restitution_tangential",
-        above: Term::Of(|i| i.restitution_tangential),
-        below: one,
-    },
-    Quantity { name: "spin_rad_s", above: Term::Of(|i| i.spin_rad_s), below: one },
-    Quantity { name: "forward_share", above: Term::Of(|i| share(i.rim > STILL)), below: one },
-    Quantity { name: "backward_share", above: Term::Of(|i| share(i.rim < -STILL)), below: one },
-    Quantity { name: "embedded_share", above: Term::Of(|i| share(i.is_embedded)), below: one },
+    per_impact("wear_volume_m3", |i| i.wear_volume_m3),
+    per_impact("removed_volume_m3", |i| i.removed_volume_m3),
+    of_energy("wear_energy_share", |i| i.energy_wear * i.energy_j),
+    of_energy("friction_energy_share", |i| i.energy_friction * i.energy_j),
+    of_energy("translation_energy_share", |i| i.energy_translation * i.energy_j),
+    of_energy("rotation_energy_share", |i| i.energy_rotation * i.energy_j),
+    of_energy("other_energy_share", |i| i.energy_other * i.energy_j),
+    of_wear("lateral_share", |i| i.lateral_m3),
+    of_wear("chip_share", |i| i.chip_m3),
+    of_wear("removed_share", |i| i.removed_volume_m3),
+    per_impact("depth_m", |i| i.depth_m),
+    per_impact("restitution", |i| i.restitution),
+    per_impact("restitution_normal", |i| i.restitution_normal),
+    per_impact("restitution_tangential", |i| i.restitution_tangential),
+    per_impact("spin_rad_s", |i| i.spin_rad_s),
+    per_impact("forward_share", |i| share(i.rim > STILL)),
+    per_impact("backward_share", |i| share(i.rim < -STILL)),
+    per_impact("embedded_share", |i| share(i.is_embedded)),
 ];
 
-fn one(_: &Impact) -> f64 {
-    1.0
+const fn per_impact(name: &'static str, above: fn(&Impact) -> f64) -> Quantity {
+    Quantity { name, above: Term::Of(above), below: |_| 1.0 }
 }
 
-fn energy(impact: &Impact) -> f64 {
-    impact.energy_j
+const fn per_mass(name: &'static str, above: fn(&Impact) -> f64) -> Quantity {
+    Quantity { name, above: Term::Of(above), below: |i| i.mass_kg }
+}
+
+/// A share of the energy before the impact.
+const fn of_energy(name: &'static str, above: fn(&Impact) -> f64) -> Quantity {
+    Quantity { name, above: Term::Of(above), below: |i| i.energy_j }
+}
+
+/// A share of the displaced volume.
+const fn of_wear(name: &'static str, above: fn(&Impact) -> f64) -> Quantity {
+    Quantity { name, above: Term::Of(above), below: |i| i.wear_volume_m3 }
 }
 
 fn share(is: bool) -> f64 {

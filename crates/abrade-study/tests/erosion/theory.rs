@@ -17,6 +17,10 @@ const SHARES: [(&str, [f64; 4], [f64; 4]); 3] = [
 /// The cube's displaced volume over that of the sphere of the same mass.
 const RATIOS: [(f64, f64); 4] = [(3.0, 0.5), (1.6, 0.25), (1.03, 0.06), (0.93, 0.03)];
 
+/// How many times as deep as the sphere a polyhedron goes, at the four angles: 2 to 4 at 30 and 60 degrees;
+/// corners that graze go deeper, and at right angles a cube goes hardly twice as deep.
+const DEPTHS: [[f64; 2]; 4] = [[4.0, 5.5], [2.0, 4.0], [2.0, 4.0], [1.9, 4.0]];
+
 /// Fails for grains that are not of the same mass, attitudes that are not even, a grain that is not taken
 /// until it is out, or an energy that is not that of the impact.
 #[test]
@@ -51,9 +55,15 @@ fn grains_wear_as_the_theory_says_on_average() {
             other.case.grain == "sphere" && other.case.angle == case.case.angle
         };
         let sphere = result.cases.iter().find(is_sphere).expect("the sphere");
-        let deeper = depth(case) / depth(sphere);
         if name != "sphere" {
-            compare(format!("{what}, depth over the sphere's"), deeper, 3.25, 1.25 + 1.2);
+            let [least, most] = DEPTHS[at];
+            let deeper = depth(case) / depth(sphere);
+            compare(
+                format!("{what}, depth over the sphere's"),
+                deeper,
+                (least + most) / 2.0,
+                (most - least) / 2.0,
+            );
         }
         // The books of each impact close.
         assert!(case.quantity("other_energy_share").value.abs() < 1e-9, "{what}");

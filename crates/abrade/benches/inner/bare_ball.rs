@@ -230,7 +230,9 @@ impl Node {
             true => old.excess,
             false => [after[0] - start.normal, after[1] - start.lateral],
         };
-        let open = open_share(before[1], after[1]);
+        // A gate whose excess falls of itself closes, and does not hold the node back.
+        let closes = before[1] > 0.0 && after[1] < before[1];
+        let open = if closes { 1.0 } else { open_share(before[1], after[1]) };
         let mut limit = 0.0;
         if open > 0.0 {
             let advance = match touched {
@@ -251,11 +253,16 @@ impl Node {
             self.sink(from, limit, at, at.lateral, excess, |k| self.lateral_excess(k))
         };
         let (mut lateral, mut now) = (0.0, start);
-        let yields = after[1] > 0.0 && limit > 0.0;
+        let yields = limit > 0.0 && !closes;
         if yields {
             (lateral, now) = aside(0.0, &start, after[1]);
         } else if limit > 0.0 {
             (lateral, now) = (limit, self.at(limit));
+            let excess = self.lateral_excess(&now);
+            if excess < 0.0 {
+                lateral = limit * open_share(before[1], excess);
+                now = self.at(lateral);
+            }
         }
         let mut normal;
         (normal, now) = down(lateral, &now);

@@ -5,7 +5,7 @@ use crate::body::State;
 use crate::clump_query::ClumpQuery;
 use crate::elastic::Foundation;
 use crate::ground::Flat;
-use crate::node_law::{Motion, resolve};
+use crate::node_law::{Answer, Motion, resolve};
 use crate::query::{BallQuery, Contactor};
 use crate::shape::{Ball, Piece};
 use nalgebra::Point3;
@@ -109,14 +109,14 @@ fn a_node_that_friction_pulls_up_does_not_sink_aside() {
     assert!(spring.normal_load > -1e-9 * spring.tangential_force, "{spring:?}");
 }
 
-/// Fails for a node between two balls of a clump that is pushed into the lower one.
-#[test]
-fn a_node_sinks_no_farther_than_to_the_next_piece_below_it() {
-    let piece = |z: f64, radius: f64| Contactor {
-        piece: Piece::Ball(Ball { centre: Point3::new(0.0, 0.0, z), radius }),
+/// What becomes of a node at the origin on which the first of two balls comes down: each ball by x and z
+/// of its centre and its radius.
+fn between(balls: [[f64; 3]; 2], hardness: f64) -> Answer {
+    let piece = |[x, z, radius]: [f64; 3]| Contactor {
+        piece: Piece::Ball(Ball { centre: Point3::new(x, 0.0, z), radius }),
         coefficient: 1e3,
     };
-    let mut query = ClumpQuery::new(&[piece(0.95, 1.0), piece(-0.6, 0.57)], 0.0);
+    let mut query = ClumpQuery::new(&balls.map(piece), 0.0);
     query.place(&State::at(Point3::origin()));
     let ball = ball(Point3::origin());
     let NodeStep { elastic, x, n, area, friction, heading, trial_stretch, .. } =
@@ -124,8 +124,14 @@ fn a_node_sinks_no_farther_than_to_the_next_piece_below_it() {
     let query = &query;
     let mut node = NodeStep { query, elastic, x, n, area, friction, heading, trial_stretch };
     let motion = Motion { velocity: -Vector3::z(), spin: Vector3::zeros(), drag: None, dt: 0.05 };
-    let flow = NormalPressure { hardness: 0.1 };
-    let answer = resolve(Flat, &flow, &mut node, &Spring::default(), &motion).expect("a contact");
+    let flow = NormalPressure { hardness };
+    resolve(Flat, &flow, &mut node, &Spring::default(), &motion).expect("a contact")
+}
+
+/// Fails for a node between two balls of a clump that is pushed into the lower one.
+#[test]
+fn a_node_sinks_no_farther_than_to_the_next_piece_below_it() {
+    let answer = between([[0.0, 0.95, 1.0], [0.0, -0.6, 0.57]], 0.1);
     // Half-way between the overlaps: 50 mm with the upper ball, 30 mm off the lower one.
     assert!((answer.spring.drop.normal - 0.04).abs() < 1e-9, "{:?}", answer.spring);
     assert!(answer.loaded.cosine > STEEP && answer.spring.normal_load > 0.0);
@@ -135,21 +141,7 @@ fn a_node_sinks_no_farther_than_to_the_next_piece_below_it() {
 /// well, and harder than by the one that it gets away from.
 #[test]
 fn a_node_on_its_way_down_does_not_pass_through_another_piece() {
-    let piece = |x: f64, z: f64, radius: f64| Contactor {
-        piece: Piece::Ball(Ball { centre: Point3::new(x, 0.0, z), radius }),
-        coefficient: 1e3,
-    };
-    let mut query = ClumpQuery::new(&[piece(0.62, 0.325, 1.0), piece(-0.25, -0.5, 0.3)], 0.0);
-    query.place(&State::at(Point3::origin()));
-    let ball = ball(Point3::origin());
-    let NodeStep { elastic, x, n, area, friction, heading, trial_stretch, .. } =
-        node(&ball, Point3::origin());
-    let query = &query;
-    let mut node = NodeStep { query, elastic, x, n, area, friction, heading, trial_stretch };
-    let motion = Motion { velocity: -Vector3::z(), spin: Vector3::zeros(), drag: None, dt: 0.05 };
-    let flow = NormalPressure { hardness: 1.0 };
-    let answer = resolve(Flat, &flow, &mut node, &Spring::default(), &motion).expect("a contact");
-    let drop = answer.spring.drop.normal;
+    let drop = between([[0.62, 0.325, 1.0], [-0.25, -0.5, 0.3]], 1.0).spring.drop.normal;
     let upper = 1.0 - 0.62f64.hypot(0.325 + drop);
     let lower = 0.3 - 0.25f64.hypot(0.5 - drop);
     assert!((upper - lower).abs() < 1e-9 && upper > 0.03, "{drop}: {upper} {lower}");
