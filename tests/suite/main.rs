@@ -1,5 +1,6 @@
 //! Tests of the whole: physics against references that this project did not write.
 
+mod adhesion;
 mod closed;
 mod convergence;
 mod drive;

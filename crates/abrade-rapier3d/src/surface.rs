@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use abrade::{ElasticLaw, RenewError, Surface, Worn};
+use abrade::{RenewError, Surface, Worn};
 use nalgebra::{Isometry3, Point3};
 use rapier::geometry::{Collider, ColliderHandle};
 use rapier::math::Pose;
@@ -43,7 +43,7 @@ pub(crate) struct WornCollider {
     pub exact: Option<(Pose, Isometry3<f64>)>,
     /// Box around the undeformed nodes, in the surface's frame.
     pub bounds: Extent,
-    /// What the elastic law inflates bodies by [m].
+    /// How far from a node a body feels it [m].
     pub inflation: f64,
     /// What rays and characters see of it.
     pub shown: Option<Shown>,
@@ -53,10 +53,7 @@ pub(crate) struct WornCollider {
 
 impl WornCollider {
     pub fn new(surface: Surface, proxy: ColliderHandle, offset: Isometry3<f64>) -> Self {
-        let inflation = match surface.laws().elastic {
-            ElasticLaw::HertzNodes { node_radius, .. } => node_radius,
-            ElasticLaw::Foundation { .. } | ElasticLaw::Rigid => 0.0,
-        };
+        let inflation = surface.laws().reach();
         let bounds = bounds(&surface);
         let surface = Arc::new(surface);
         Self { surface, proxy, offset, exact: None, bounds, inflation, shown: None, refused: None }

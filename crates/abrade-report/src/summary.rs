@@ -178,7 +178,7 @@ pub struct EnergySummary {
     /// Change made by a tangential history that is not conservative [J].
     #[serde(rename = "history_J")]
     pub history: f64,
-    /// Work of adhesion [J].
+    /// Energy of adhesion [J]: below zero while bodies adhere, zero once they have parted.
     #[serde(rename = "adhesion_J")]
     pub adhesion: f64,
     /// Added by time integration [J].
@@ -292,7 +292,7 @@ impl EnergySummary {
             damping: ledger.damping,
             external_work: ledger.external_work,
             history: ledger.history,
-            adhesion: 0.0,
+            adhesion: ledger.adhesion,
             numerical: ledger.numerical(),
         }
     }

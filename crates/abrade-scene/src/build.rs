@@ -135,6 +135,7 @@ impl Checked {
             flow: surface.flow.clone(),
             removal: surface.removal.clone(),
             restitution: surface.restitution,
+            adhesion: surface.adhesion.clone(),
         };
         let stand_in = StandIn::of(&surface.geometry);
         let mesh = self.meshes.get(name);

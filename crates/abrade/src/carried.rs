@@ -18,6 +18,7 @@ use crate::exit::engulfed;
 use crate::integrate::{GROWTH, Integrator};
 use crate::ledger::Ledger;
 use crate::reject::rejected;
+use crate::settle::Charge;
 #[cfg(feature = "state")]
 use crate::state::{Fault, finite, not_negative, require};
 use crate::surface::Surface;
@@ -52,8 +53,9 @@ pub struct Carried {
 #[derive(Clone, Copy, Debug, Default)]
 struct Foreseen {
     grip: Grip,
-    /// Energy that their springs are short of [J].
+    /// Energy that their springs are short of, and what of that of before they let go unpaid [J].
     short: f64,
+    forgiven: f64,
     /// Length of a step that they should be asked about instead [s].
     shorter: Option<f64>,
 }
@@ -157,7 +159,7 @@ impl Carried {
         let mut springs = Grip { force: pull.spring_force, torque: pull.spring_torque } * share;
         springs.force += self.owed[0] / dt;
         springs.torque += self.owed[1] / dt;
-        if !self.integrator.contacts.iter().any(columns) {
+        if !self.integrator.contacts.iter().any(columns) && self.integrator.glue.is_empty() {
             return springs;
         }
         let dynamics = self.integrator.dynamics;
@@ -169,10 +171,15 @@ impl Carried {
         let trial = self.integrator.ask(body, surfaces, &end, Course { velocity, spin, dt });
         let mut state = body.state;
         let charge = self.integrator.charge(&trial.toll, 0.0, &mut state);
-        let swept = Grip { force: charge.impulse / dt, torque: charge.torque / dt };
+        let drawn = trial.drawn();
+        let swept = Grip {
+            force: charge.impulse / dt + drawn.force,
+            torque: charge.torque / dt + drawn.torque,
+        };
         let allowed = self.integrator.eta / self.integrator.omega(&trial);
         let shorter = rejected(&trial, dt, allowed);
-        self.foreseen = Foreseen { grip: swept, short: charge.short, shorter };
+        let Charge { short, forgiven, .. } = charge;
+        self.foreseen = Foreseen { grip: swept, short, forgiven, shorter };
         Grip { force: springs.force + swept.force, torque: springs.torque + swept.torque }
     }
 
@@ -232,6 +239,7 @@ impl Carried {
         self.owed = [damping.impulse, damping.torque];
         (self.swept, self.integrator.short) = (self.foreseen.grip, self.foreseen.short);
         self.integrator.book_damping(damping.dissipated);
+        self.integrator.book_forgiven(self.foreseen.forgiven);
         self.last = if trial.touching > 0 { dt } else { 0.0 };
         if trial.touching > 0 {
             self.integrator.touched = true;

@@ -61,8 +61,9 @@ pub(crate) struct Answer {
     /// Sweeping faces and springs of columns over the step, not yet scaled.
     pub flow: Push,
     pub sprung: Push,
-    /// Dashpots over the step.
+    /// Dashpots and adhesion over the step.
     pub damping: Push,
+    pub drawn: Push,
 }
 
 /// What one contact does to the body, about its centre of mass: its springs at the present
@@ -327,8 +328,8 @@ impl Integrator {
     pub(crate) fn give_back(&mut self) -> f64 {
         let ahead = self.ahead;
         let strength = |answer: &Answer| {
-            let Answer { flow, sprung, damping, .. } = answer;
-            (flow.impulse + sprung.impulse + damping.impulse).norm()
+            let Answer { flow, sprung, damping, drawn, .. } = answer;
+            (flow.impulse + sprung.impulse + damping.impulse + drawn.impulse).norm()
         };
         let rides = self.rides.iter_mut().zip(&self.answers);
         let free = rides.filter_map(|(ride, answer)| {

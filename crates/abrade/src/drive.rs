@@ -193,6 +193,9 @@ impl Driven {
         duration: f64,
         observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
+        if duration <= 0.0 {
+            return Ok(Advance::default());
+        }
         let left = (self.drive.distance - self.travelled) / self.drive.speed;
         let last = duration >= left;
         let duration = duration.min(left);

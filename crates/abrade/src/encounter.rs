@@ -5,7 +5,6 @@ use nalgebra::{Isometry3, Point3, Vector3};
 
 use crate::body::{Body, Inertia, State};
 use crate::carrier::Carrier;
-use crate::contact::Contact;
 use crate::error::PhysicsError;
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
@@ -234,7 +233,7 @@ impl Encounter {
     /// call, in the surface's frame [m]. What happens to other nodes cannot have changed a bit of
     /// what the encounter did.
     pub fn take_reads(&mut self) -> impl Iterator<Item = Option<[Point3<f64>; 2]>> + '_ {
-        self.integrator.contacts.iter_mut().map(Contact::take_read)
+        self.integrator.take_reads()
     }
 
     /// The energies since the encounter began; zeros unless asked for.

@@ -28,10 +28,10 @@ impl Integrator {
         if !self.touched {
             return f64::INFINITY;
         }
-        let times = self.contacts.iter().zip(surfaces).map(|(contact, placed)| {
+        let times = surfaces.iter().enumerate().map(|(i, placed)| {
             let local = placed.sees(&body.state);
             match placed.surface.is_flat() {
-                true => rise_time(placed.surface, body, &local, contact.inflation()),
+                true => rise_time(placed.surface, body, &local, self.reach(i)),
                 false => RISE_PITCH * placed.surface.pitch() / top_speed(placed, body),
             }
         });
@@ -72,27 +72,32 @@ impl Integrator {
 
     /// True for a body out of contact and wholly above every undeformed surface.
     pub(crate) fn contact_is_over(&self, body: &Body, surfaces: &[Placed<'_>]) -> bool {
-        let mut pairs = self.contacts.iter().zip(surfaces);
         !self.touching
-            && pairs.all(|(contact, placed)| {
+            && surfaces.iter().enumerate().all(|(i, placed)| {
                 let local = placed.sees(&body.state);
-                let inflation = contact.inflation();
-                separation(placed.surface, body, &local, inflation) >= 0.0
-                    || is_clear(placed.surface, body, &local, inflation)
+                let reach = self.reach(i);
+                separation(placed.surface, body, &local, reach) >= 0.0
+                    || is_clear(placed.surface, body, &local, reach)
             })
     }
 
     /// True for a body that has been brought to rest and that no spring pushes out again.
     pub(crate) fn has_stopped(&self, body: &Body, surfaces: &[Placed<'_>]) -> bool {
         self.touched
-            && (self.contacts.iter().all(Contact::is_rigid) || self.is_unsprung())
             && self.relative_energy(body, surfaces) < STOPPED * self.energy_before
+            && (self.contacts.iter().all(Contact::is_rigid) || self.is_unsprung())
     }
 
-    /// True while no spring pushes the body.
+    /// True while no spring pushes the body, be it under a column.
     fn is_unsprung(&self) -> bool {
         let zero = Vector3::zeros();
-        self.pull.spring_force == zero && self.pull.spring_torque == zero
+        let loaded = |contact: &Contact| match contact {
+            Contact::Columns(columns) => columns.elastic() > 0.0,
+            Contact::Springs(_) | Contact::Mutual(_) => false,
+        };
+        self.pull.spring_force == zero
+            && self.pull.spring_torque == zero
+            && !self.contacts.iter().any(loaded)
     }
 
     /// Kinetic energy of a body over the material that it leans on most [J].
@@ -113,9 +118,14 @@ impl Integrator {
 
     /// Distance between the boxes of the body and of the first surface [m].
     pub(crate) fn gap(&self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
-        let (contact, placed) = (&self.contacts[0], &surfaces[0]);
+        let placed = &surfaces[0];
         let local = placed.sees(&body.state);
-        separation(placed.surface, body, &local, contact.inflation())
+        separation(placed.surface, body, &local, self.reach(0))
+    }
+
+    /// How far from the nodes of the surface `i` a body feels them [m].
+    fn reach(&self, i: usize) -> f64 {
+        self.contacts[i].inflation() + self.range(i)
     }
 }
 

@@ -17,6 +17,41 @@ pub(crate) fn clearance(shape: &Shape, state: &State, x: &Point3<f64>) -> f64 {
     shape.pieces().iter().map(|piece| piece_clearance(piece, &local)).fold(f64::INFINITY, f64::min)
 }
 
+/// Where a shape is nearest to a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Nearest {
+    /// Below zero inside [m]. Beyond the edges of a hull it is that to the plane of the face that
+    /// looks at the point most.
+    pub distance: f64,
+    /// Unit vector from the shape to the point.
+    pub normal: Vector3<f64>,
+    /// From the centre of mass to there [m].
+    pub arm: Vector3<f64>,
+}
+
+/// Where the shape at `state` is nearest to `x`.
+pub(crate) fn nearest(shape: &Shape, state: &State, x: &Point3<f64>) -> Nearest {
+    let away = x - state.position;
+    let local = state.rotation.inverse_transform_vector(&away);
+    let of = |piece: &Piece| match piece {
+        Piece::Ball(ball) => {
+            let apart = local - ball.centre.coords;
+            let distance = apart.norm();
+            (distance - ball.radius, apart / distance.max(f64::MIN_POSITIVE))
+        }
+        Piece::Hull(hull) => {
+            let planes = hull.planes().iter().map(|p| (p.normal.dot(&local) - p.offset, p.normal));
+            let facing = planes.reduce(|best, next| if next.0 > best.0 { next } else { best });
+            facing.expect("a hull has faces")
+        }
+    };
+    let pieces = shape.pieces().iter().map(of);
+    let least = pieces.reduce(|best, next| if next.0 < best.0 { next } else { best });
+    let (distance, normal) = least.expect("a shape has at least one piece");
+    let normal = state.rotation * normal;
+    Nearest { distance, normal, arm: away - normal * distance }
+}
+
 fn piece_clearance(piece: &Piece, local: &Vector3<f64>) -> f64 {
     match piece {
         Piece::Ball(ball) => (local - ball.centre.coords).norm() - ball.radius,

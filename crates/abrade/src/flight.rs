@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 
+use crate::adhesion::Glue;
 use crate::body::{Body, State};
 use crate::contact::Contact;
 use crate::encounter::{Loads, Placed};
@@ -16,13 +17,15 @@ const COLUMNS_PITCH: f64 = 4.0;
 /// most [m/s2], cannot touch it; zero when it may touch at once.
 pub(crate) fn free_time(
     contact: &mut Contact,
+    glue: Option<&mut Glue>,
     placed: &Placed<'_>,
     body: &Body,
     local: &State,
     acceleration: f64,
 ) -> f64 {
     let surface = &*placed.surface;
-    let apart = box_time(surface, body, local, acceleration, contact.inflation());
+    let range = glue.as_ref().map_or(0.0, |glue| glue.range());
+    let apart = box_time(surface, body, local, acceleration, contact.inflation() + range);
     if apart > 0.0 {
         return apart;
     }
@@ -31,6 +34,22 @@ pub(crate) fn free_time(
         let velocity = local.velocity + local.spin.cross(&(centre - local.position));
         speed = speed.min(velocity.norm() + local.spin.norm() * radius);
     }
+    let drawn = glue.map_or(f64::INFINITY, |glue| {
+        glue.time_to_reach(surface, &body.shape, local, speed, acceleration)
+    });
+    touch_time(contact, placed, body, local, [speed, acceleration]).min(drawn)
+}
+
+/// Time [s] in which a body, none of whose points is faster than `speed` [m/s] and which nothing
+/// accelerates by more than `acceleration` [m/s2], cannot touch a node.
+fn touch_time(
+    contact: &mut Contact,
+    placed: &Placed<'_>,
+    body: &Body,
+    local: &State,
+    [speed, acceleration]: [f64; 2],
+) -> f64 {
+    let surface = &*placed.surface;
     let margin = 0.5 * surface.pitch();
     let patch = match contact {
         Contact::Springs(patch) => patch,

@@ -6,12 +6,12 @@
 
 use nalgebra::Vector3;
 
+use crate::adhesion::Glue;
 use crate::balance::Balance;
-use crate::body::{Body, State};
-use crate::carrier::{Answer, Hand, Ride, carriers_energy, flight_limit};
+use crate::body::Body;
+use crate::carrier::{Answer, Hand, Ride, flight_limit};
 use crate::contact::Contact;
 use crate::damping::{Damping, Dashpots};
-use crate::debt::unpaid;
 use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Skin, Until};
 use crate::error::PhysicsError;
 use crate::exit::engulfed;
@@ -19,11 +19,10 @@ use crate::flight::{acceleration, free_time, time_to_close, top_speed};
 use crate::ledger::Ledger;
 use crate::reject::{OVERLAP_STEP, rejected};
 use crate::rotation::Dynamics;
+use crate::settle::Pull;
 #[cfg(feature = "state")]
 use crate::state::{Fault, finite, not_negative, positive, require};
 use crate::surface::Surface;
-use crate::toll::Toll;
-use crate::trial::{Pull, Trial};
 
 /// eta at an accuracy of 3e-3; the error goes as eta^2.
 pub(crate) const ETA: f64 = 0.1;
@@ -46,6 +45,8 @@ pub(crate) struct Integrator {
     pub(crate) dynamics: Dynamics,
     pub(crate) eta: f64,
     pub(crate) contacts: Vec<Contact>,
+    /// Adhesion of every contact; empty when no surface has any.
+    pub(crate) glue: Vec<Option<Glue>>,
     /// Numbers of nodes of the surfaces that it was made with, and how often each had been renewed
     /// when it was last looked at.
     node_counts: Vec<usize>,
@@ -84,7 +85,7 @@ pub(crate) struct Integrator {
     pub(crate) short: f64,
     /// Work of loads since the first touch, whatever its sign [J].
     pub(crate) supplied: f64,
-    ledger: Ledger,
+    pub(crate) ledger: Ledger,
     /// Energies that springs booked in the last trial, if they are kept.
     #[cfg_attr(feature = "state", serde(skip))]
     pub(crate) booked: Ledger,
@@ -111,6 +112,10 @@ impl Integrator {
         surface: &Surface,
         settings: EncounterSettings,
     ) -> Result<Self, PhysicsError> {
+        if [surface, &*skin.surface].iter().any(|surface| surface.laws.adhesion.is_some()) {
+            let what = "two surfaces that wear do not adhere: leave the adhesion of both out";
+            return Err(PhysicsError::Unsupported { what });
+        }
         let contact = Contact::mutual(&body.shape, skin, surface, settings.ledger)?;
         Self::with_contacts(body, vec![(contact, surface)], settings)
     }
@@ -125,6 +130,8 @@ impl Integrator {
         )?;
         let node_counts = pairs.iter().map(|(_, surface)| surface.nodes().len()).collect();
         let renewals = pairs.iter().map(|(_, surface)| surface.renewals()).collect();
+        let glues = pairs.iter().any(|(_, surface)| surface.laws.adhesion.is_some());
+        let glue = pairs.iter().filter(|_| glues).map(|(c, s)| Glue::new(c, s)).collect();
         let contacts: Vec<_> = pairs.into_iter().map(|(contact, _)| contact).collect();
         Ok(Self {
             settings,
@@ -134,6 +141,7 @@ impl Integrator {
             damping: Damping::default(),
             dashpots: Dashpots::default(),
             contacts,
+            glue,
             node_counts,
             renewals,
             next_dt: 0.0,
@@ -158,19 +166,6 @@ impl Integrator {
         self.touching
     }
 
-    pub(crate) fn ledger(&self) -> &Ledger {
-        &self.ledger
-    }
-
-    /// The energies, if they are kept.
-    pub(crate) fn kept_ledger(&self) -> Option<&Ledger> {
-        self.settings.ledger.then_some(&self.ledger)
-    }
-
-    pub(crate) fn keeps_ledger(&self) -> bool {
-        self.settings.ledger
-    }
-
     pub(crate) fn step_limit(&self) -> u64 {
         self.settings.step_limit
     }
@@ -185,7 +180,7 @@ impl Integrator {
             });
         }
         let contacts = self.contacts.iter_mut().zip(&mut self.renewals).zip(surfaces);
-        for ((contact, renewals), placed) in contacts {
+        for (i, ((contact, renewals), placed)) in contacts.enumerate() {
             if !contact.fits(placed.skin.as_ref(), self.touched) {
                 return Err(PhysicsError::Unsupported {
                     what: "the body's own surface is not the one that the encounter was made with",
@@ -200,6 +195,7 @@ impl Integrator {
                 });
             }
             contact.forget();
+            self.glue.get_mut(i).and_then(Option::as_mut).map(Glue::let_go);
             *renewals = placed.surface.renewals();
         }
         Ok(())
@@ -269,14 +265,16 @@ impl Integrator {
         loads: &Loads,
     ) -> (f64, bool) {
         let limit = self.sweep_limit(body, surfaces, loads);
+        let limit = limit.min(self.adhesion_limit(body, surfaces, loads));
         if self.touching {
             return (self.contact_step(body, surfaces, loads).min(limit), false);
         }
         let mut free = f64::INFINITY;
-        for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
+        for (i, (contact, placed)) in self.contacts.iter_mut().zip(surfaces).enumerate() {
             let local = placed.sees(&body.state);
             let acceleration = acceleration(placed, body, loads);
-            free = free.min(free_time(contact, placed, body, &local, acceleration));
+            let glue = self.glue.get_mut(i).and_then(Option::as_mut);
+            free = free.min(free_time(contact, glue, placed, body, &local, acceleration));
         }
         let scale = FLOOR * self.yield_overlap();
         let time = |placed: &Placed<'_>| {
@@ -358,60 +356,6 @@ impl Integrator {
         }
     }
 
-    fn accept(
-        &mut self,
-        body: &mut Body,
-        surfaces: &mut [Placed<'_>],
-        loads: &Loads,
-        dt: f64,
-        trial: Trial,
-        done: &mut Advance,
-    ) {
-        let before = body.state;
-        let carried = self.settings.ledger.then(|| carriers_energy(surfaces));
-        let end = self.settle(body, surfaces, loads, dt, &trial);
-        let mut state = end.state;
-        state.velocity /= 1.0 + dt * loads.linear_damping;
-        state.spin /= 1.0 + dt * loads.angular_damping;
-        let damped = self.arrive(surfaces, dt);
-        if let Some(spent) = end.ledger {
-            let energy = |state: &State| body.inertia.kinetic_energy(state);
-            let weight = loads.pull(&body.inertia);
-            let ledger = &mut self.ledger;
-            let carried = carriers_energy(surfaces) - carried.unwrap_or_default();
-            ledger.kinetic_change += energy(&state) - energy(&before) + carried;
-            ledger.damping += energy(&end.state) - energy(&state) + spent.damping + damped;
-            ledger.external_work += spent.external_work
-                + weight.dot(&trial.shift)
-                + self.dynamics.work(&loads.torque, &trial.turn);
-            if self.dynamics.is_immovable() {
-                // What leads the body holds it against the contact.
-                ledger.external_work -=
-                    end.impulse.dot(&before.velocity) + end.twist.dot(&before.spin);
-            }
-            if self.dynamics.is_guided() {
-                // What leads the body takes up the force that its velocity does not show.
-                let total = end.impulse + weight * dt;
-                let shown = (end.state.velocity - before.velocity) / self.dynamics.inverse_mass;
-                ledger.external_work += (shown - total).dot(&trial.shift) / dt;
-            }
-            ledger.elastic = spent.elastic;
-            ledger.friction += spent.friction;
-            ledger.wear += spent.wear;
-            ledger.history += spent.history;
-        }
-        self.supply(body, loads, &trial);
-        done.impulse += end.impulse;
-        done.twist += end.twist;
-        done.steps += 1;
-        if trial.touching > 0 || self.touching {
-            done.contact_time += dt;
-        }
-        self.pull = end.pull;
-        self.touching = trial.touching > 0;
-        body.state = state;
-    }
-
     /// Largest overlap of a node with the body [m], surface by surface.
     pub(crate) fn overlaps<'a>(
         &'a mut self,
@@ -424,51 +368,11 @@ impl Integrator {
             contact.deepest(placed, &body.shape, &local)
         })
     }
-
-    /// Lets go of the surfaces: the energy of the springs is lost.
-    pub(crate) fn let_go(&mut self, surfaces: &mut [Placed<'_>]) {
-        for (contact, placed) in self.contacts.iter_mut().zip(surfaces) {
-            contact.let_go(placed.surface);
-        }
-        self.pull = Pull::default();
-        self.balance = None;
-        let lost = std::mem::take(&mut self.ledger.elastic);
-        self.ledger.history += lost - unpaid(lost, self.short);
-        self.short = 0.0;
-        (self.touching, self.touched) = (false, false);
-    }
-
-    /// Books what dashpots of a led body dissipated [J].
-    pub(crate) fn book_damping(&mut self, dissipated: f64) {
-        if self.settings.ledger {
-            self.ledger.damping += dissipated;
-        }
-    }
-
-    /// Books a step of a led body, in which the lead did `work` [J].
-    pub(crate) fn book_lead(&mut self, elastic: f64, work: f64, toll: &Toll) {
-        let (ledger, springs) = (&mut self.ledger, &self.booked);
-        ledger.elastic = elastic;
-        ledger.external_work += work;
-        ledger.friction += springs.friction + toll.flow.friction + toll.spring.friction;
-        ledger.wear += springs.wear + toll.wear;
-        ledger.history += springs.history + toll.lost;
-    }
-
-    /// Turns an indented body into a sliding one that is free along `vertical` alone; the ledger
-    /// begins anew.
-    pub(crate) fn restart(&mut self, body: &mut Body, vertical: &Vector3<f64>) {
-        body.state.velocity = Vector3::zeros();
-        self.dynamics = self.dynamics.guided(*vertical);
-        self.touched = true;
-        let stored = self.ledger.elastic;
-        self.ledger = Ledger { elastic: stored, elastic_start: stored, ..Ledger::default() };
-    }
 }
 
 #[cfg(feature = "state")]
 impl Integrator {
-    pub(crate) fn checked(self) -> Result<Self, Fault> {
+    pub(crate) fn checked(mut self) -> Result<Self, Fault> {
         let EncounterSettings { accuracy, .. } = self.settings;
         let steps = positive(accuracy) && positive(self.eta) && self.eta <= ETA_LIMIT;
         require(steps && not_negative(self.next_dt), "the steps of a contact are out of range")?;
@@ -477,6 +381,13 @@ impl Integrator {
         let same = counts == [self.contacts.len(); 2];
         let mut pairs = self.contacts.iter().zip(&self.node_counts);
         let within = pairs.all(|(contact, &nodes)| contact.lies_on(nodes));
+        let glued = self.glue.is_empty() || self.glue.len() == self.contacts.len();
+        let glue = self.glue.iter_mut().zip(&self.node_counts);
+        for (glue, &nodes) in glue.filter_map(|(glue, nodes)| Some((glue.as_mut()?, nodes))) {
+            glue.check()?;
+            require(glue.lies_on(nodes), "a candidate is no node of its surface")?;
+        }
+        require(glued, "adhesion and contacts differ in number")?;
         require(same && within, "a candidate is no node of its surface")?;
         let energies = finite(&[self.energy_before, self.supplied, self.short]);
         let hands = self.hands.iter().all(Hand::is_finite);

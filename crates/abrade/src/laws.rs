@@ -2,6 +2,7 @@
 //! arithmetic stands in `elastic` and `flow`.
 
 use crate::error::ParameterError;
+use crate::material::Material;
 use crate::surface::Worn;
 
 /// Elastic part of the contact, per node.
@@ -48,6 +49,67 @@ pub enum HertzConvention {
     ElasticPair,
     /// Both doubled: the body is rigid.
     RigidBody,
+}
+
+/// Adhesion: what lies within a range of a node is drawn to it by a constant traction (Dugdale 1960;
+/// Maugis, Journal of Colloid and Interface Science 150 (1992) 243).
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "state", derive(serde::Serialize))]
+pub struct Adhesion {
+    /// w [J/m2]: work of adhesion, what a unit of area costs to part.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::quantity::area_energy"))]
+    #[cfg_attr(feature = "serde", schemars(with = "crate::quantity::Quantity"))]
+    pub work: f64,
+    /// Distance up to which the traction acts [m]. The traction, work over range, must be below the
+    /// hardness; the rim of a contact, sqrt(2 R range) wide about a ball of radius R, should be five
+    /// pitches wide at least.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::quantity::length"))]
+    #[cfg_attr(feature = "serde", schemars(with = "crate::quantity::Quantity"))]
+    pub range: f64,
+    /// Pull-off force of a ball from a plane over pi w R [-]: 2 is what nodes come to by themselves
+    /// (Bradley, DMT), 1.5 that of JKR; between them that of Maugis and Dugdale. It scales the work
+    /// of adhesion in effect.
+    #[cfg_attr(feature = "serde", serde(default = "local_pull_off"))]
+    pub pull_off: f64,
+}
+
+/// Pull-off over pi w R of a local traction [-].
+fn local_pull_off() -> f64 {
+    2.0
+}
+
+impl Adhesion {
+    /// One of a `work` of adhesion [J/m2] and a `range` [m].
+    pub fn new(work: f64, range: f64) -> Self {
+        Self { work, range, pull_off: local_pull_off() }
+    }
+
+    /// sigma_0 [Pa], of the work of adhesion in effect.
+    pub fn traction(&self) -> f64 {
+        0.5 * self.pull_off * self.work / self.range
+    }
+
+    /// Every value outside its range, on a surface of `material`.
+    pub fn check(&self, material: &Material) -> Vec<ParameterError> {
+        let sizes = [("work", self.work), ("range", self.range)];
+        let mut found: Vec<_> =
+            sizes.into_iter().filter_map(|(field, x)| ParameterError::positive(field, x)).collect();
+        found.extend(ParameterError::within("pull_off", self.pull_off, 1.5, 2.0));
+        let traction = self.traction();
+        if found.is_empty() && traction >= material.hardness {
+            found.push(ParameterError {
+                field: "range",
+                value: self.range,
+                allowed: format!(
+                    "so long that the traction on it, {traction:e} Pa, is below the hardness, {:e} Pa",
+                    material.hardness
+                ),
+            });
+        }
+        found
+    }
 }
 
 /// Flow part: when a node sinks, and by how much.

@@ -22,6 +22,9 @@ pub struct Ledger {
     /// Change that `HertzNodes` makes because its tangential history is not conservative, and
     /// elastic energy of contacts that `swept` lost sideways, or that were let go.
     pub history: f64,
+    /// Of adhesion, since the ledger was opened: below zero while bodies adhere, zero once they have
+    /// parted.
+    pub adhesion: f64,
     /// Change of the kinetic energy since the ledger was opened.
     pub kinetic_change: f64,
 }
@@ -35,7 +38,8 @@ impl Ledger {
                 + self.friction
                 + self.wear
                 + self.damping
-                + self.history)
+                + self.history
+                + self.adhesion)
     }
 }
 
@@ -48,6 +52,7 @@ impl std::ops::AddAssign for Ledger {
         self.damping += other.damping;
         self.external_work += other.external_work;
         self.history += other.history;
+        self.adhesion += other.adhesion;
         self.kinetic_change += other.kinetic_change;
     }
 }
@@ -61,6 +66,7 @@ impl std::ops::SubAssign for Ledger {
         self.damping -= other.damping;
         self.external_work -= other.external_work;
         self.history -= other.history;
+        self.adhesion -= other.adhesion;
         self.kinetic_change -= other.kinetic_change;
     }
 }

@@ -5,8 +5,10 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+mod adhesion;
 mod balance;
 mod body;
+mod booking;
 mod box_grid;
 mod candidates;
 mod carried;
@@ -59,6 +61,7 @@ mod renewal;
 mod reweigh;
 mod rotation;
 mod sag;
+mod settle;
 mod shape;
 mod solid;
 #[cfg(feature = "state")]
@@ -82,7 +85,9 @@ pub use encounter::{
 };
 pub use error::{ParameterError, PhysicsError, ShapeError, SurfaceError};
 pub use hull::{Hull, Plane, Polyhedron, cuboid_vertices};
-pub use laws::{ATTACK_BIN, ATTACK_BINS, ElasticLaw, FlowLaw, HertzConvention, Lateral, Removal};
+pub use laws::{
+    ATTACK_BIN, ATTACK_BINS, Adhesion, ElasticLaw, FlowLaw, HertzConvention, Lateral, Removal,
+};
 pub use layout::HexStrip;
 pub use leaf::Changes;
 pub use ledger::Ledger;

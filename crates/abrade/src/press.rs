@@ -172,8 +172,9 @@ impl Pressed {
         observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
         self.integrator.fits_at_rest(placed)?;
-        if !(hold.increment > 0.0 && hold.increment.is_finite()) {
-            let what = "the increment of a hold must be above zero and finite";
+        let is_sound = |x: f64| x > 0.0 && x.is_finite();
+        if !(is_sound(hold.increment) && is_sound(hold.duration)) {
+            let what = "increment and duration of a hold must be above zero and finite";
             return Err(PhysicsError::Unsupported { what });
         }
         let load = hold.load.norm();

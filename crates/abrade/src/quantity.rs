@@ -77,6 +77,7 @@ dimensions! {
     SPEED speed optional_speed "a speed" [("m/s", 1.0), ("cm/s", 1e-2), ("mm/s", 1e-3), ("km/h", 1.0 / 3.6)]
     SPIN spin optional_spin "an angular speed" [("rad/s", 1.0), ("deg/s", std::f64::consts::PI / 180.0), ("rpm", std::f64::consts::PI / 30.0)]
     FREQUENCY frequency optional_frequency "a frequency" [("Hz", 1.0), ("kHz", 1e3), ("rpm", 1.0 / 60.0)]
+    AREA_ENERGY area_energy optional_area_energy "an energy per area" [("J/m2", 1.0), ("J/m^2", 1.0), ("mJ/m2", 1e-3), ("mJ/m^2", 1e-3), ("N/m", 1.0)]
     ANGLE angle optional_angle "an angle" [("rad", 1.0), ("deg", std::f64::consts::PI / 180.0)]
     FORCE force optional_force "a force" [("N", 1.0), ("mN", 1e-3), ("kN", 1e3), ("MN", 1e6)]
     MASS mass optional_mass "a mass" [("kg", 1.0), ("g", 1e-3), ("mg", 1e-6), ("ug", 1e-9)]

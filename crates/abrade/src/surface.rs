@@ -8,7 +8,7 @@ use nalgebra::{Point3, Vector3};
 use crate::error::{ParameterError, SurfaceError};
 use crate::grid::Grid;
 use crate::hardness::HardnessMap;
-use crate::laws::{ATTACK_BINS, ElasticLaw, FlowLaw, Lateral, Removal};
+use crate::laws::{ATTACK_BINS, Adhesion, ElasticLaw, FlowLaw, Lateral, Removal};
 use crate::layout::{HexStrip, Layout, strip_positions};
 use crate::leaf::{Changes, Leaf};
 use crate::material::Material;
@@ -40,6 +40,8 @@ pub struct SurfaceLaws {
     /// yield dashpots still take their part while nodes load and unload, up to the cap of the flow
     /// law: less wear and less rebound. `Rigid` has no springs to damp.
     pub restitution: f64,
+    /// Adhesion to bodies; None for a surface that nothing sticks to.
+    pub adhesion: Option<Adhesion>,
 }
 
 /// Volumes worn off a surface [m3], and its largest load.
@@ -134,7 +136,17 @@ impl SurfaceLaws {
             flow: FlowLaw::CapozzaHanley { lateral: Lateral::Projected },
             removal: Removal::All,
             restitution: 1.0,
+            adhesion: None,
         }
+    }
+
+    /// How far from a node a body feels it [m]: r_s of `HertzNodes`, and the range of adhesion.
+    pub fn reach(&self) -> f64 {
+        let radius = match self.elastic {
+            ElasticLaw::HertzNodes { node_radius, .. } => node_radius,
+            _ => 0.0,
+        };
+        radius + self.adhesion.as_ref().map_or(0.0, |adhesion| adhesion.range)
     }
 
     /// An error unless `restitution` is one that a surface can have.
@@ -151,6 +163,7 @@ impl SurfaceLaws {
             .chain(self.elastic.check())
             .chain(self.removal.check())
             .chain(Self::check_restitution(self.restitution))
+            .chain(self.adhesion.iter().flat_map(|adhesion| adhesion.check(&self.material)))
             .map(SurfaceError::from)
             .collect();
         let law = match self.elastic {

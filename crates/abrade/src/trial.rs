@@ -1,7 +1,8 @@
-//! One trial step and its settlement: kick, drift, ask every contact, kick, project.
+//! One trial step: kick, drift, ask every contact.
 
 use nalgebra::Vector3;
 
+use crate::adhesion::Attraction;
 use crate::body::{Body, State};
 use crate::carried::Grip;
 use crate::carrier::Ride;
@@ -13,28 +14,12 @@ use crate::inner_loop::Reaction;
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
 use crate::node_law::Motion;
-use crate::projection::{Payment, balance, pay};
+use crate::projection::balance;
 use crate::rotation::Dynamics;
-#[cfg(feature = "state")]
-use crate::state::finite;
 use crate::toll::{Push, Toll};
 
 /// Largest predicted change of the speed by columns without springs, as a share of it.
 const PREDICTION: f64 = 0.1;
-
-/// What contacts do to a body at an instant.
-#[derive(Clone, Copy, Debug, Default)]
-#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct Pull {
-    /// Force [N] and torque [N m] of all contacts.
-    pub force: Vector3<f64>,
-    pub torque: Vector3<f64>,
-    /// The part of them that springs exert.
-    pub spring_force: Vector3<f64>,
-    pub spring_torque: Vector3<f64>,
-    /// Sum of the nodes' normal loads along their normals [N].
-    pub push: Vector3<f64>,
-}
 
 /// How a body moves over a step.
 #[derive(Clone, Copy, Debug)]
@@ -54,29 +39,14 @@ pub(crate) struct Trial {
     /// Displacement [m] and turn [rad] of the step.
     pub shift: Vector3<f64>,
     pub turn: Vector3<f64>,
-    springs: Reaction,
+    pub springs: Reaction,
     pub toll: Toll,
+    pub drawn: Attraction,
     pub touching: usize,
     pub evaluations: u64,
     pub overlap_change: f64,
     /// No contact was asked.
-    flight: bool,
-}
-
-/// What columns take from a body in a step.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Charge {
-    /// Impulse [N s], and its torque about the centre of mass [N m s].
-    pub impulse: Vector3<f64>,
-    pub torque: Vector3<f64>,
-    /// Dissipated by slip under the sweeping faces [J].
-    pub flow_friction: f64,
-    /// Share of the removal that the body can pay [-].
-    pub share: f64,
-    /// Energy that the springs were short of [J].
-    pub short: f64,
-    /// Of what they lost, the part that nobody had paid [J].
-    pub forgiven: f64,
+    pub flight: bool,
 }
 
 /// What columns and dashpots are foreseen to change over half a step, and the share of it that is
@@ -86,17 +56,6 @@ struct Prediction {
     velocity: Vector3<f64>,
     spin: Vector3<f64>,
     share: f64,
-}
-
-/// The accepted end of a step.
-pub(crate) struct Settled {
-    pub state: State,
-    pub pull: Pull,
-    pub impulse: Vector3<f64>,
-    /// Torque of the contacts about the centre of mass over the step [N m s].
-    pub twist: Vector3<f64>,
-    /// Stored energy, and increments of the dissipated ones, if they are kept.
-    pub ledger: Option<Ledger>,
 }
 
 impl Trial {
@@ -109,18 +68,26 @@ impl Trial {
             flow.torque,
             spring.impulse,
             spring.torque,
+            self.drawn.push.impulse,
+            self.drawn.push.torque,
         ];
         self.state.is_finite() && forces.iter().all(|v| v.iter().all(|x| x.is_finite()))
     }
 
     /// Force of all contacts on the body [N]; of columns, the mean over the step.
     pub(crate) fn force(&self) -> Vector3<f64> {
-        self.springs.force + self.swept().force
+        self.springs.force + self.swept().force + self.drawn.grip.force
     }
 
     /// Torque of all contacts on the body [N m]; of columns, the mean over the step.
     pub(crate) fn torque(&self) -> Vector3<f64> {
-        self.springs.torque + self.swept().torque
+        self.springs.torque + self.swept().torque + self.drawn.grip.torque
+    }
+
+    /// What adhesion does to the body, in the mean over the step.
+    pub(crate) fn drawn(&self) -> Grip {
+        let Push { impulse, torque, .. } = self.drawn.push;
+        Grip { force: impulse / self.dt, torque: torque / self.dt }
     }
 
     /// What columns do to the body, in the mean over the step.
@@ -161,8 +128,9 @@ impl Integrator {
         self.kick(body, loads, &self.pull.spring_force, &self.pull.spring_torque, half, &mut state);
         let kicked = state;
         let swept = self.swept_prediction(body, surfaces, half);
-        state.velocity += swept.velocity;
-        state.spin += swept.spin;
+        let drawn = self.pull.drawn * half;
+        state.velocity += swept.velocity + self.dynamics.accelerate(&drawn.force);
+        state.spin += swept.spin + self.dynamics.turn(&state.rotation, &drawn.torque);
         self.ride(body, surfaces, dt, swept.share);
         let (velocity, predicted) = (state.velocity, state.spin);
         let spin = self.dynamics.drift(&mut state, dt);
@@ -179,7 +147,9 @@ impl Integrator {
         }
         // In flight nothing can be touched, so nothing is asked.
         let surfaces = if flight { &[] } else { surfaces };
-        let trial = self.ask(body, surfaces, &state, Course { velocity, spin, dt });
+        let mut trial = self.ask(body, surfaces, &state, Course { velocity, spin, dt });
+        // Adhesion works along the way of the step: it takes its place between the kicks.
+        self.apply(&trial.drawn.push, &mut trial.state);
         if self.is_damped {
             self.damp(surfaces, &trial);
         }
@@ -202,6 +172,7 @@ impl Integrator {
             turn: spin * dt,
             springs: Reaction::default(),
             toll: Toll::default(),
+            drawn: Attraction::default(),
             touching: 0,
             evaluations: 0,
             overlap_change: 0.0,
@@ -265,8 +236,15 @@ impl Integrator {
                     }
                 }
             }
+            if let Some(glue) = self.glue.get_mut(i).and_then(Option::as_mut) {
+                let drawn = glue.trial(placed.surface, &body.shape, &end, &motion);
+                trial.drawn.add(drawn, &pose);
+                if ride.is_some() {
+                    self.answers[i].drawn.add(&drawn.push, &pose);
+                }
+            }
         }
-        trial.touching = trial.springs.touching + trial.toll.touching;
+        trial.touching = trial.springs.touching + trial.toll.touching + trial.drawn.reaching;
         trial.evaluations = (trial.springs.touching + trial.toll.touching) as u64;
         trial.overlap_change = trial.springs.overlap_change;
         trial
@@ -282,8 +260,8 @@ impl Integrator {
             // The last step let go: what springs and dashpots did says nothing of a flight.
             return Prediction::default();
         }
-        let force = pull.force - pull.spring_force;
-        let torque = pull.torque - pull.spring_torque;
+        let force = pull.force - pull.spring_force - pull.drawn.force;
+        let torque = pull.torque - pull.spring_torque - pull.drawn.torque;
         let velocity = self.dynamics.accelerate(&(force * half));
         let spin = self.dynamics.turn(&body.state.rotation, &(torque * half));
         if self.is_damped || self.has_sprung_columns() {
@@ -307,8 +285,7 @@ impl Integrator {
         let (springs, toll) = (&trial.springs, &trial.toll);
         let mut state = trial.state;
         self.kick(body, loads, &springs.force, &springs.torque, 0.5 * trial.dt, &mut state);
-        let cost = toll.spring.friction + toll.elastic + toll.lost + self.short
-            - unpaid(toll.lost, self.short);
+        let cost = self.owed(toll, unpaid(toll.lost, self.short));
         balance(self.change(&toll.spring, &state, |answer| &answer.sprung), cost).1
     }
 
@@ -316,7 +293,7 @@ impl Integrator {
         self.contacts.iter().any(|c| matches!(c, Contact::Columns(_)) && !c.is_rigid())
     }
 
-    fn kick(
+    pub(crate) fn kick(
         &self,
         body: &Body,
         loads: &Loads,
@@ -331,169 +308,8 @@ impl Integrator {
         state.spin += self.dynamics.turn(&state.rotation, &(torque * time));
     }
 
-    fn apply(&self, push: &Push, state: &mut State) {
+    pub(crate) fn apply(&self, push: &Push, state: &mut State) {
         state.velocity += self.dynamics.accelerate(&push.impulse);
         state.spin += self.dynamics.turn(&state.rotation, &push.torque);
-    }
-
-    /// Takes what columns cost from a body in `state` and the carriers, closed by the energy
-    /// projection. A guided body is paid for by what leads it: nothing is scaled.
-    /// A `gain` [J] of the energy is taken with the wear.
-    pub(crate) fn charge(&mut self, toll: &Toll, gain: f64, state: &mut State) -> Charge {
-        let has_columns = self.contacts.iter().any(|c| matches!(c, Contact::Columns(_)));
-        if !has_columns && gain == 0.0 && self.short == 0.0 {
-            return Charge { share: 1.0, ..Charge::default() };
-        }
-        let guided = self.dynamics.is_guided();
-        let flow_cost = toll.wear + toll.flow.friction;
-        let (flow_gain, spring_gain) = if flow_cost > 0.0 { (gain, 0.0) } else { (0.0, gain) };
-        let forgiven = if guided { 0.0 } else { unpaid(toll.lost, self.short) };
-        let owed = self.short - forgiven;
-        let cost = toll.spring.friction + toll.elastic + toll.lost + owed + spring_gain;
-        let (scale, short) = match guided {
-            true => (1.0, 0.0),
-            false => balance(self.change(&toll.spring, state, |answer| &answer.sprung), cost),
-        };
-        let sprung = toll.spring.scaled(scale);
-        self.apply(&sprung, state);
-        self.react(state, |answer| answer.sprung.scaled(scale));
-        let cost = flow_cost + flow_gain;
-        let payment = match guided {
-            true => Payment { scale: 1.0, share: 1.0 },
-            false => pay(self.change(&toll.flow, state, |answer| &answer.flow), cost),
-        };
-        let flow = toll.flow.scaled(payment.scale);
-        self.apply(&flow, state);
-        self.react(state, |answer| answer.flow.scaled(payment.scale));
-        Charge {
-            impulse: sprung.impulse + flow.impulse,
-            torque: sprung.torque + flow.torque,
-            flow_friction: toll.flow.friction * payment.share,
-            share: payment.share,
-            short,
-            forgiven,
-        }
-    }
-
-    /// Commits a trial: second kick, projection, nodes.
-    pub(crate) fn settle(
-        &mut self,
-        body: &Body,
-        surfaces: &mut [Placed<'_>],
-        loads: &Loads,
-        dt: f64,
-        trial: &Trial,
-    ) -> Settled {
-        let mut state = trial.state;
-        let springs = &trial.springs;
-        self.kick(body, loads, &springs.force, &springs.torque, 0.5 * dt, &mut state);
-        self.kick_carriers(surfaces, &state, 0.5 * dt);
-        let gained = self.give_back();
-        let toll = &trial.toll;
-        // The dashpots in halves around the springs: work at the mean velocity of the step.
-        let half = self.is_damped.then(|| self.damping.half());
-        if let Some(half) = &half {
-            self.apply(half, &mut state);
-            self.react(&state, |answer| answer.damping.scaled(0.5));
-        }
-        let Charge { mut impulse, mut torque, flow_friction, share, short, forgiven } =
-            self.charge(toll, gained, &mut state);
-        if let Some(half) = &half {
-            self.apply(half, &mut state);
-            self.react(&state, |answer| answer.damping.scaled(0.5));
-            impulse += self.damping.impulse;
-            torque += self.damping.torque;
-        }
-        self.short = short;
-        let (elastic, push) = self.commit(surfaces, trial, share);
-        let pull = Pull {
-            force: springs.force + impulse / dt,
-            torque: springs.torque + torque / dt,
-            spring_force: springs.force,
-            spring_torque: springs.torque,
-            push,
-        };
-        let external_work = self.hold_on(body, surfaces, &state, dt);
-        let ledger = self.keeps_ledger().then(|| Ledger {
-            elastic,
-            friction: self.booked.friction + toll.spring.friction + flow_friction,
-            damping: half.map_or(0.0, |_| self.damping.dissipated),
-            wear: self.booked.wear + toll.wear * share,
-            history: self.booked.history + toll.lost - forgiven,
-            external_work,
-            ..Ledger::default()
-        });
-        let mean = (self.pull.spring_force + springs.force) * (0.5 * dt);
-        let twist = (self.pull.spring_torque + springs.torque) * (0.5 * dt) + torque;
-        Settled { state, pull, impulse: mean + impulse, twist, ledger }
-    }
-
-    /// Makes a trial the nodes' state; a blocked body takes a `share` of the swept columns.
-    /// Returns the stored energy [J] and the push along the nodes' normals [N].
-    fn commit(
-        &mut self,
-        surfaces: &mut [Placed<'_>],
-        trial: &Trial,
-        share: f64,
-    ) -> (f64, Vector3<f64>) {
-        let mut elastic = self.booked.elastic;
-        let mut push = trial.springs.push;
-        if trial.flight {
-            return (elastic, push);
-        }
-        let stored = self.keeps_ledger();
-        let pairs = self.contacts.iter_mut().zip(surfaces.iter_mut());
-        for (contact, placed) in pairs {
-            match contact {
-                Contact::Springs(patch) => patch.commit(placed.surface),
-                Contact::Mutual(mutual) => mutual.commit(placed),
-                Contact::Columns(columns) => {
-                    columns.commit(placed.surface, share, trial.dt);
-                    push += placed.pose * columns.impulse() / trial.dt;
-                    if stored {
-                        elastic += columns.elastic();
-                    }
-                }
-            }
-        }
-        (elastic, push)
-    }
-
-    /// Makes the trial of a body that something else leads the state, with the velocities that
-    /// the lead gives it; what leads it pays for everything.
-    pub(crate) fn lead(
-        &mut self,
-        body: &mut Body,
-        surfaces: &mut [Placed<'_>],
-        trial: &Trial,
-        [velocity, spin]: [Vector3<f64>; 2],
-    ) {
-        let (elastic, push) = self.commit(surfaces, trial, 1.0);
-        let (force, torque) = (trial.force(), trial.torque());
-        if self.keeps_ledger() {
-            let (force, torque) = (self.pull.force + force, self.pull.torque + torque);
-            let turned = self.dynamics.work(&torque, &trial.turn);
-            let work = -0.5 * (force.dot(&trial.shift) + turned);
-            self.book_lead(elastic, work, &trial.toll);
-        }
-        body.state = State { velocity, spin, ..trial.state };
-        self.pull = Pull {
-            force,
-            torque,
-            spring_force: trial.springs.force,
-            spring_torque: trial.springs.torque,
-            push,
-        };
-        self.touching = trial.touching > 0;
-        self.next_dt = self.eta / self.omega(trial);
-    }
-}
-
-#[cfg(feature = "state")]
-impl Pull {
-    pub(crate) fn is_finite(&self) -> bool {
-        let Self { force, torque, spring_force, spring_torque, push } = self;
-        let parts = [force, torque, spring_force, spring_torque, push];
-        parts.iter().all(|part| finite(part.iter()))
     }
 }

@@ -105,12 +105,15 @@ impl Checker<'_> {
             flow: surface.flow.clone(),
             removal: surface.removal.clone(),
             restitution: surface.restitution,
+            adhesion: surface.adhesion.clone(),
         };
         let literal = surface.flow == FlowLaw::CapozzaHanley { lateral: Lateral::Eq5 };
         if literal && surface.elastic == ElasticLaw::Rigid {
             let message = "`lateral: Eq5` is the paper's formula for a ball on springs".to_owned();
             self.refuse(&path.join("flow"), message, "`Rigid` has none; take `lateral: Projected`");
         }
+        let errors = surface.adhesion.iter().flat_map(|adhesion| adhesion.check(material));
+        self.ranges(&path.join("adhesion"), errors.map(Some));
         for error in laws.check() {
             if let SurfaceError::Missing { law, field } = error {
                 self.missing(path, &surface.material, law, field);

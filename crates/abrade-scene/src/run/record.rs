@@ -193,7 +193,11 @@ impl Recorder {
         }
         let due = ((end - next) / every).floor();
         let last = due as u64;
-        let instant = |i: u64| next + i as f64 * every - time;
+        let instant = |i: u64| {
+            let at = next + i as f64 * every - time;
+            // The end of the step is known exactly, not what came shortly before it.
+            if (at - dt).abs() < dt * BEHIND { dt } else { at }
+        };
         let touching = self.courses.iter().filter_map(Course::contact);
         let busy = touching.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]);
         if let Some([from, to]) = busy {

@@ -1,7 +1,7 @@
 //! Surfaces of a scene.
 
 use abrade::quantity::{self, Quantity};
-use abrade::{ElasticLaw, FlowLaw, Lateral, Removal};
+use abrade::{Adhesion, ElasticLaw, FlowLaw, Lateral, Removal};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -37,6 +37,9 @@ pub struct SceneSurface {
     /// to come to rest (default 1: no damping).
     #[serde(default = "undamped")]
     pub restitution: f64,
+    /// Adhesion to bodies (default: nothing sticks).
+    #[serde(default)]
+    pub adhesion: Option<Adhesion>,
     /// Where the origin of the surface's frame lies in the world [m].
     #[serde(default, deserialize_with = "vectors::length3")]
     #[schemars(with = "[Quantity; 3]")]

@@ -1,0 +1,244 @@
+//! The settlement of a trial: second kick, projection, nodes.
+
+use nalgebra::Vector3;
+
+use crate::body::{Body, State};
+use crate::carried::Grip;
+use crate::contact::Contact;
+use crate::debt::unpaid;
+use crate::encounter::{Loads, Placed};
+use crate::integrate::Integrator;
+use crate::ledger::Ledger;
+use crate::projection::{Payment, balance, pay};
+#[cfg(feature = "state")]
+use crate::state::finite;
+use crate::toll::Toll;
+use crate::trial::Trial;
+
+/// What contacts do to a body at an instant.
+#[derive(Clone, Copy, Debug, Default)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Pull {
+    /// Force [N] and torque [N m] of all contacts.
+    pub force: Vector3<f64>,
+    pub torque: Vector3<f64>,
+    /// The part of them that springs exert.
+    pub spring_force: Vector3<f64>,
+    pub spring_torque: Vector3<f64>,
+    /// Sum of the nodes' normal loads along their normals [N].
+    pub push: Vector3<f64>,
+    /// The part of them by which adhesion draws the body.
+    pub drawn: Grip,
+}
+
+/// What columns take from a body in a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Charge {
+    /// Impulse [N s], and its torque about the centre of mass [N m s].
+    pub impulse: Vector3<f64>,
+    pub torque: Vector3<f64>,
+    /// Dissipated by slip under the sweeping faces [J].
+    pub flow_friction: f64,
+    /// Share of the removal that the body can pay [-].
+    pub share: f64,
+    /// Energy that the springs were short of [J].
+    pub short: f64,
+    /// Of what they lost, the part that nobody had paid [J].
+    pub forgiven: f64,
+}
+
+/// The accepted end of a step.
+pub(crate) struct Settled {
+    pub state: State,
+    pub pull: Pull,
+    pub impulse: Vector3<f64>,
+    /// Torque of the contacts about the centre of mass over the step [N m s].
+    pub twist: Vector3<f64>,
+    /// Stored energy, and increments of the dissipated ones, if they are kept.
+    pub ledger: Option<Ledger>,
+}
+
+impl Integrator {
+    /// What the springs under faces cost the body in a step, with their debt less what of it is
+    /// `forgiven` [J].
+    pub(crate) fn owed(&self, toll: &Toll, forgiven: f64) -> f64 {
+        toll.spring.friction + toll.elastic + toll.lost + self.short - forgiven
+    }
+
+    /// Takes what columns cost from a body in `state` and the carriers, closed by the energy
+    /// projection. A guided body is paid for by what leads it: nothing is scaled.
+    /// A `gain` [J] of the energy is taken with the wear.
+    pub(crate) fn charge(&mut self, toll: &Toll, gain: f64, state: &mut State) -> Charge {
+        let has_columns = self.contacts.iter().any(|c| matches!(c, Contact::Columns(_)));
+        if !has_columns && gain == 0.0 && self.short == 0.0 {
+            return Charge { share: 1.0, ..Charge::default() };
+        }
+        let guided = self.dynamics.is_guided();
+        let flow_cost = toll.wear + toll.flow.friction;
+        let (flow_gain, spring_gain) = if flow_cost > 0.0 { (gain, 0.0) } else { (0.0, gain) };
+        let forgiven = if guided { 0.0 } else { unpaid(toll.lost, self.short) };
+        let cost = self.owed(toll, forgiven) + spring_gain;
+        let (scale, short) = match guided {
+            true => (1.0, 0.0),
+            false => balance(self.change(&toll.spring, state, |answer| &answer.sprung), cost),
+        };
+        let sprung = toll.spring.scaled(scale);
+        self.apply(&sprung, state);
+        self.react(state, |answer| answer.sprung.scaled(scale));
+        let cost = flow_cost + flow_gain;
+        let payment = match guided {
+            true => Payment { scale: 1.0, share: 1.0 },
+            false => pay(self.change(&toll.flow, state, |answer| &answer.flow), cost),
+        };
+        let flow = toll.flow.scaled(payment.scale);
+        self.apply(&flow, state);
+        self.react(state, |answer| answer.flow.scaled(payment.scale));
+        Charge {
+            impulse: sprung.impulse + flow.impulse,
+            torque: sprung.torque + flow.torque,
+            flow_friction: toll.flow.friction * payment.share,
+            share: payment.share,
+            short,
+            forgiven,
+        }
+    }
+
+    /// Commits a trial: second kick, projection, nodes.
+    pub(crate) fn settle(
+        &mut self,
+        body: &Body,
+        surfaces: &mut [Placed<'_>],
+        loads: &Loads,
+        dt: f64,
+        trial: &Trial,
+    ) -> Settled {
+        let mut state = trial.state;
+        let springs = &trial.springs;
+        self.kick(body, loads, &springs.force, &springs.torque, 0.5 * dt, &mut state);
+        self.kick_carriers(surfaces, &state, 0.5 * dt);
+        self.react(&state, |answer| answer.drawn);
+        let gained = self.give_back();
+        let toll = &trial.toll;
+        // The dashpots in halves around the springs: work at the mean velocity of the step.
+        let half = self.is_damped.then(|| self.damping.half());
+        if let Some(half) = &half {
+            self.apply(half, &mut state);
+            self.react(&state, |answer| answer.damping.scaled(0.5));
+        }
+        let Charge { mut impulse, mut torque, flow_friction, share, short, forgiven } =
+            self.charge(toll, gained, &mut state);
+        if let Some(half) = &half {
+            self.apply(half, &mut state);
+            self.react(&state, |answer| answer.damping.scaled(0.5));
+            impulse += self.damping.impulse;
+            torque += self.damping.torque;
+        }
+        self.short = short;
+        let (elastic, push) = self.commit(surfaces, trial, share);
+        let [adhesion, left] = self.adhere(body, surfaces, trial);
+        let drawn = trial.drawn.grip;
+        let pull = Pull {
+            force: springs.force + drawn.force + impulse / dt,
+            torque: springs.torque + drawn.torque + torque / dt,
+            drawn,
+            spring_force: springs.force,
+            spring_torque: springs.torque,
+            push,
+        };
+        let external_work = self.hold_on(body, surfaces, &state, dt);
+        let ledger = self.keeps_ledger().then(|| Ledger {
+            elastic,
+            friction: self.booked.friction + toll.spring.friction + flow_friction,
+            damping: half.map_or(0.0, |_| self.damping.dissipated),
+            wear: self.booked.wear + toll.wear * share,
+            history: self.booked.history + toll.lost - forgiven - left,
+            adhesion,
+            external_work,
+            ..Ledger::default()
+        });
+        impulse += trial.drawn.push.impulse;
+        torque += trial.drawn.push.torque;
+        let mean = (self.pull.spring_force + springs.force) * (0.5 * dt);
+        let twist = (self.pull.spring_torque + springs.torque) * (0.5 * dt) + torque;
+        Settled { state, pull, impulse: mean + impulse, twist, ledger }
+    }
+
+    /// Makes a trial the nodes' state; a blocked body takes a `share` of the swept columns.
+    /// Returns the stored energy [J] and the push along the nodes' normals [N].
+    fn commit(
+        &mut self,
+        surfaces: &mut [Placed<'_>],
+        trial: &Trial,
+        share: f64,
+    ) -> (f64, Vector3<f64>) {
+        let mut elastic = self.booked.elastic;
+        let mut push = trial.springs.push;
+        if trial.flight {
+            return (elastic, push);
+        }
+        let stored = self.keeps_ledger();
+        let pairs = self.contacts.iter_mut().zip(surfaces.iter_mut());
+        for (contact, placed) in pairs {
+            match contact {
+                Contact::Springs(patch) => patch.commit(placed.surface),
+                Contact::Mutual(mutual) => mutual.commit(placed),
+                Contact::Columns(columns) => {
+                    columns.commit(placed.surface, share, trial.dt);
+                    push += placed.pose * columns.impulse() / trial.dt;
+                    if stored {
+                        elastic += columns.elastic();
+                    }
+                }
+            }
+        }
+        (elastic, push)
+    }
+
+    /// Makes the trial of a body that something else leads the state, with the velocities that
+    /// the lead gives it; what leads it pays for everything.
+    pub(crate) fn lead(
+        &mut self,
+        body: &mut Body,
+        surfaces: &mut [Placed<'_>],
+        trial: &Trial,
+        [velocity, spin]: [Vector3<f64>; 2],
+    ) {
+        let (elastic, push) = self.commit(surfaces, trial, 1.0);
+        let adhesion = self.adhere(body, surfaces, trial);
+        let (force, torque, drawn) = (trial.force(), trial.torque(), trial.drawn.grip);
+        if self.keeps_ledger() {
+            // Of adhesion the mean over the step is known.
+            let (before, mean) = (self.pull.drawn, trial.drawn());
+            let twice = |ends: Vector3<f64>, drawn: Vector3<f64>, mean: Vector3<f64>| {
+                ends - drawn + mean * 2.0
+            };
+            let force = twice(self.pull.force + force, before.force + drawn.force, mean.force);
+            let torque =
+                twice(self.pull.torque + torque, before.torque + drawn.torque, mean.torque);
+            let turned = self.dynamics.work(&torque, &trial.turn);
+            let work = -0.5 * (force.dot(&trial.shift) + turned);
+            self.book_lead(elastic, adhesion, work, &trial.toll);
+        }
+        body.state = State { velocity, spin, ..trial.state };
+        self.pull = Pull {
+            force,
+            torque,
+            spring_force: trial.springs.force,
+            spring_torque: trial.springs.torque,
+            drawn,
+            push,
+        };
+        self.touching = trial.touching > 0;
+        self.next_dt = self.eta / self.omega(trial);
+    }
+}
+
+#[cfg(feature = "state")]
+impl Pull {
+    pub(crate) fn is_finite(&self) -> bool {
+        let Self { force, torque, spring_force, spring_torque, push, drawn } = self;
+        let drawn = [&drawn.force, &drawn.torque];
+        let parts = [force, torque, spring_force, spring_torque, push].into_iter().chain(drawn);
+        parts.into_iter().all(|part| finite(part.iter()))
+    }
+}
