@@ -75,6 +75,8 @@ pub struct Case {
     pub rotation: UnitQuaternion<f64>,
     /// Distance between body and surface at the start, in the way of one `dt`.
     pub gap_steps: f64,
+    /// Traction over hardness, and range over the contact radius [-], of a surface that adheres.
+    pub adhesion: Option<[f64; 2]>,
 }
 
 /// Numbers from a seed: splitmix64 (Steele, Lea & Flood 2014).
@@ -157,7 +159,16 @@ impl Case {
             dt: draw.decades(1e-7, 1.0 / 30.0),
             rotation: draw.turn(),
             gap_steps: draw.within(0.3, 3.0),
+            adhesion: None,
         }
+    }
+
+    /// The same case on a surface that adheres.
+    pub fn sticky(number: u64) -> Self {
+        let mut draw = Draw(!SEED ^ number.wrapping_mul(0xd134_2543_de82_ef95));
+        draw.bits();
+        let adhesion = Some([draw.decades(1e-3, 0.99), draw.decades(1e-3, 1.0)]);
+        Self { adhesion, ..Self::numbered(number) }
     }
 
     /// [m/s], +x and downwards.

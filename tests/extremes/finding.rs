@@ -31,8 +31,8 @@ pub struct Finding {
     pub broken: Vec<String>,
 }
 
-pub fn of(number: u64) -> Finding {
-    let case = Case::numbered(number);
+pub fn of(case: Case) -> Finding {
+    let number = case.number;
     let run = |case: &Case| catch_unwind(AssertUnwindSafe(|| run::run(case)));
     let nothing = |end, broken| Finding {
         case: case.clone(),
@@ -100,7 +100,7 @@ fn laws(case: &Case, record: &Record) -> Vec<String> {
     let [start, last] =
         [&record.start, &record.last].map(|state| record.inertia.kinetic_energy(state));
     let is_single = case.precision == Precision::Single;
-    let rounding = if is_single { ROUNDING_SINGLE } else { ROUNDING } * start;
+    let rounding = if is_single { ROUNDING_SINGLE } else { ROUNDING } * (start + record.drawn);
     let numerical = ledger.numerical().abs();
     law(record.wear_volume >= 0.0, &|| format!("wear of {:e} m3", record.wear_volume));
     // Sinking nodes may drag the body along: what friction takes is then below zero, but never more
@@ -129,11 +129,14 @@ fn laws(case: &Case, record: &Record) -> Vec<String> {
         return broken;
     }
     let allowed = NUMERICAL;
-    let given_up = start + ledger.external_work + ledger.elastic_start - last - ledger.elastic;
+    let given_up = start + ledger.external_work + ledger.elastic_start
+        - last
+        - ledger.elastic
+        - ledger.adhesion;
     law(given_up >= -(numerical + rounding), &|| {
         format!("{:.3e} of the energy was gained", -given_up / start)
     });
-    law(numerical <= allowed * start, &|| {
+    law(numerical <= allowed * (start + record.drawn), &|| {
         format!("time integration made {:.3e} of the energy", ledger.numerical() / start)
     });
     let change = last - start;

@@ -105,6 +105,8 @@ pub struct Record {
     pub last: State,
     pub inertia: Inertia,
     pub ledger: Ledger,
+    /// Most that adhesion has given [J].
+    pub drawn: f64,
     /// Depth of every node [m].
     pub depths: Vec<f64>,
     pub wear_volume: f64,
@@ -138,12 +140,13 @@ fn carry(world: &mut dyn World, case: &Case) -> Record {
     let mut broken = Vec::new();
     let mut seen = depths(world.surface());
     let mut renewals = world.surface().renewals();
-    let (mut touches, mut last) = (0, start);
+    let (mut touches, mut last, mut drawn) = (0, start, 0.0f64);
     let mut end = None;
     for number in 0..STEPS[0] + STEPS[1] {
         let dt = if number < STEPS[0] { case.dt } else { REST };
         let step = world.step(dt);
         touches += step.started;
+        drawn = drawn.max(-world.ledger().adhesion);
         let now = depths(world.surface());
         let rose = now.iter().zip(&seen).any(|(now, seen)| now < seen);
         if rose && renewals == world.surface().renewals() {
@@ -174,6 +177,7 @@ fn carry(world: &mut dyn World, case: &Case) -> Record {
         last,
         inertia: *world.inertia(),
         ledger: world.ledger(),
+        drawn,
         depths: seen,
         wear_volume: surface.wear_volume(),
         worn_normal: surface.worn().normal,

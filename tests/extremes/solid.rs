@@ -1,8 +1,8 @@
 //! Body and surface of a case for the core.
 
 use abrade::{
-    Ball, ElasticLaw, FlowLaw, HexStrip, Hull, Lateral, Material, MeshError, Piece, Shape, Surface,
-    SurfaceError, SurfaceLaws, TriangleMesh, cuboid_vertices,
+    Adhesion, Ball, ElasticLaw, FlowLaw, HexStrip, Hull, Lateral, Material, MeshError, Piece,
+    Shape, Surface, SurfaceError, SurfaceLaws, TriangleMesh, cuboid_vertices,
 };
 use nalgebra::{Point3, Vector3};
 
@@ -80,7 +80,11 @@ fn laws(case: &Case) -> SurfaceLaws {
         Flow::CapozzaHanley => FlowLaw::CapozzaHanley { lateral: Lateral::Projected },
         Flow::NormalPressure => FlowLaw::NormalPressure {},
     };
-    SurfaceLaws { elastic, flow, ..SurfaceLaws::of(material) }
+    let adhesion = case.adhesion.map(|[traction, range]| {
+        let range = range * case.contact_radius();
+        Adhesion::new(traction * case.hardness * range, range)
+    });
+    SurfaceLaws { elastic, flow, adhesion, ..SurfaceLaws::of(material) }
 }
 
 /// What cannot be built, as a typed error.

@@ -10,7 +10,7 @@
 //! A local traction pulls a sphere off a plane with 2 pi w R, as Bradley and DMT have it; the -1.5 pi
 //! w R of JKR comes of the elastic half-space, which nodes without neighbours are not.
 
-use nalgebra::{Isometry3, Point3};
+use nalgebra::{Isometry3, Point3, Vector3};
 
 use crate::body::{Body, State};
 use crate::candidates::{Candidates, Slot};
@@ -301,15 +301,17 @@ impl Integrator {
         self.glue.get(i).and_then(Option::as_ref).map_or(0.0, Glue::range)
     }
 
-    /// Longest step in which no body flies past the range of an adhesion unseen [s].
+    /// Longest step in which a body that is `drawn` [N] does not fly past the range of an adhesion
+    /// unseen [s].
     pub(crate) fn adhesion_limit(
         &self,
         body: &Body,
         surfaces: &[Placed<'_>],
         loads: &Loads,
+        drawn: &Vector3<f64>,
     ) -> f64 {
-        let drawn = self.pull.drawn.force.norm() * self.dynamics.inverse_mass;
         let step = STEP * self.eta;
+        let drawn = drawn.norm() * self.dynamics.inverse_mass;
         let limit = |(glue, placed): (&Option<Glue>, &Placed<'_>)| {
             let acceleration = acceleration(placed, body, loads) + drawn;
             Some(time_to_close(step * glue.as_ref()?.range, top_speed(placed, body), acceleration))

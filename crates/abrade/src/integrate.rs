@@ -265,7 +265,7 @@ impl Integrator {
         loads: &Loads,
     ) -> (f64, bool) {
         let limit = self.sweep_limit(body, surfaces, loads);
-        let limit = limit.min(self.adhesion_limit(body, surfaces, loads));
+        let limit = limit.min(self.adhesion_limit(body, surfaces, loads, &self.pull.drawn.force));
         if self.touching {
             return (self.contact_step(body, surfaces, loads).min(limit), false);
         }
@@ -327,7 +327,8 @@ impl Integrator {
                 return Err(PhysicsError::NotFinite { time: done.contact_time });
             }
             let omega = self.omega(&trial).max(self.damping.rate);
-            let allowed = (self.eta / omega).min(self.led_limit(body, surfaces));
+            let drawn = self.adhesion_limit(body, surfaces, loads, &trial.drawn.grip.force);
+            let allowed = (self.eta / omega).min(self.led_limit(body, surfaces)).min(drawn);
             if let Some(smaller) = rejected(&trial, dt, allowed) {
                 if dt < f64::MIN_POSITIVE / f64::EPSILON {
                     return Err(PhysicsError::StepVanished { step: dt });
