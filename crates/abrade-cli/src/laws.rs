@@ -1,6 +1,6 @@
 //! `abrade laws`: lists the closed-form laws, and evaluates one.
 
-use abrade_laws::{LAWS, Law, Parameter};
+use abrade_laws::{Law, Parameter, laws as all};
 use anyhow::anyhow;
 
 use crate::arguments::LawsArguments;
@@ -19,13 +19,13 @@ pub(crate) fn laws(arguments: &LawsArguments) -> Result<(), Failure> {
     match &arguments.name {
         Some(name) if arguments.list => say(&told(find(name)?)),
         Some(name) => evaluate(find(name)?, arguments),
-        None => say(&LAWS.iter().map(told).collect::<Vec<_>>().join("\n")),
+        None => say(&all().map(told).collect::<Vec<_>>().join("\n")),
     }
 }
 
 fn find(name: &str) -> Result<&'static Law, Failure> {
-    LAWS.iter().find(|law| law.name == name).ok_or_else(|| {
-        let names: Vec<_> = LAWS.iter().map(|law| law.name).collect();
+    all().find(|law| law.name == name).ok_or_else(|| {
+        let names: Vec<_> = all().map(|law| law.name).collect();
         refused(format!("there is no law `{name}`; there are {}", names.join(", ")))
     })
 }

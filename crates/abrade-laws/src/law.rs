@@ -4,6 +4,8 @@ use std::ops::Index;
 
 use abrade::quantity::Dimension;
 
+use crate::contact::{Before, ContactError, ContactModel};
+
 /// How the form of a law is known to this project.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
@@ -11,6 +13,9 @@ pub enum Status {
     Seen,
     /// Derived here; the documentation of the function says how.
     Derived,
+    /// Written down from memory and found in no source: not to be relied on, nor to be cited as the paper
+    /// whose author it is named after.
+    Memory,
 }
 
 impl Status {
@@ -19,6 +24,7 @@ impl Status {
         match self {
             Self::Seen => "seen",
             Self::Derived => "derived",
+            Self::Memory => "from memory",
         }
     }
 }
@@ -34,6 +40,8 @@ pub enum Allowed {
     Share,
     /// An angle from the surface, from zero to a right one.
     Angle,
+    /// Poisson's ratio, from -1 to 0.5.
+    Poisson,
     /// Any number.
     Any,
 }
@@ -47,6 +55,7 @@ impl Allowed {
                 Self::NotNegative => value >= 0.0,
                 Self::Share => (0.0..=1.0).contains(&value),
                 Self::Angle => (0.0..=std::f64::consts::FRAC_PI_2).contains(&value),
+                Self::Poisson => (-1.0..=0.5).contains(&value),
                 Self::Any => true,
             }
     }
@@ -57,6 +66,7 @@ impl Allowed {
             Self::NotNegative => "a finite number, zero or above",
             Self::Share => "a number from 0 to 1",
             Self::Angle => "an angle from the surface, from 0 to 90 deg; a bare number is in rad",
+            Self::Poisson => "a number from -1 to 0.5",
             Self::Any => "a finite number",
         }
     }
@@ -107,8 +117,20 @@ pub struct Law {
     pub from_memory: Option<&'static str>,
     /// Where it is from, and what to know before using it.
     pub source: &'static str,
-    pub(crate) value: fn(&Given<'_>) -> f64,
+    pub(crate) value: Value,
 }
+
+/// How a law gives its value.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Value {
+    /// By a formula.
+    Number(fn(&Given<'_>) -> f64),
+    /// As the force of a contact at its parameter [`DISPLACEMENT`], after it was touching.
+    Contact(fn(&Given<'_>) -> Result<Box<dyn ContactModel>, ContactError>),
+}
+
+/// The parameter of a contact that changes along its curve.
+pub(crate) const DISPLACEMENT: &str = "displacement";
 
 /// Why a law was not evaluated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -142,6 +164,20 @@ pub enum LawError {
         value: f64,
         /// What was allowed.
         allowed: &'static str,
+    },
+    /// A contact cannot be what the values ask for.
+    #[error("{law}: {source}")]
+    Contact {
+        /// Name of the law.
+        law: &'static str,
+        /// Why not.
+        source: ContactError,
+    },
+    /// A law that is no contact was asked for one.
+    #[error("{law} is no model of a contact")]
+    NoContact {
+        /// Name of the law.
+        law: &'static str,
     },
     /// The formula has no finite value there.
     #[error("{law} has no finite value at these conditions")]
@@ -177,7 +213,49 @@ impl Law {
         &self,
         given: impl IntoIterator<Item = (&'a str, f64)>,
     ) -> Result<f64, LawError> {
-        let mut values: Vec<Option<f64>> = self.parameters.iter().map(|p| p.default).collect();
+        let defaults = self.parameters.iter().map(|p| p.default).collect();
+        let values = self.checked(defaults, given)?;
+        let given = Given { parameters: self.parameters, values: &values };
+        let value = match self.value {
+            Value::Number(value) => value(&given),
+            Value::Contact(model) => {
+                let touching =
+                    model(&given).and_then(|model| model.at(given[DISPLACEMENT], Before::Touching));
+                touching.map_err(|source| LawError::Contact { law: self.name, source })?.force
+            }
+        };
+        if value.is_finite() { Ok(value) } else { Err(LawError::NotFinite { law: self.name }) }
+    }
+
+    /// True for a model of a contact.
+    pub fn is_contact(&self) -> bool {
+        matches!(self.value, Value::Contact(_))
+    }
+
+    /// The contact that the law describes, for parameters `given` by name, in SI; its displacement need not
+    /// be among them.
+    ///
+    /// # Errors
+    /// As for [`Self::evaluate`]; a law that is no model of a contact.
+    pub fn contact<'a>(
+        &self,
+        given: impl IntoIterator<Item = (&'a str, f64)>,
+    ) -> Result<Box<dyn ContactModel>, LawError> {
+        let Value::Contact(model) = self.value else {
+            return Err(LawError::NoContact { law: self.name });
+        };
+        let place = |p: &Parameter| if p.name == DISPLACEMENT { Some(0.0) } else { p.default };
+        let values = self.checked(self.parameters.iter().map(place).collect(), given)?;
+        let made = model(&Given { parameters: self.parameters, values: &values });
+        made.map_err(|source| LawError::Contact { law: self.name, source })
+    }
+
+    /// The values of all parameters: those `given` over the `defaults`.
+    fn checked<'a>(
+        &self,
+        mut values: Vec<Option<f64>>,
+        given: impl IntoIterator<Item = (&'a str, f64)>,
+    ) -> Result<Vec<f64>, LawError> {
         for (name, value) in given {
             values[self.find(name)?] = Some(value);
         }
@@ -189,9 +267,7 @@ impl Law {
                 false => Err(LawError::Refused { name, value, allowed: allowed.words() }),
             }
         });
-        let values = checked.collect::<Result<Vec<f64>, _>>()?;
-        let value = (self.value)(&Given { parameters: self.parameters, values: &values });
-        if value.is_finite() { Ok(value) } else { Err(LawError::NotFinite { law: self.name }) }
+        checked.collect()
     }
 
     /// Index of a parameter.

@@ -74,6 +74,7 @@ dimensions! {
     AREA area optional_area "an area" [("m2", 1.0), ("cm2", 1e-4), ("mm2", 1e-6), ("um2", 1e-12)]
     PRESSURE pressure optional_pressure "a pressure" [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9)]
     STIFFNESS stiffness optional_stiffness "a stiffness per area" [("Pa/m", 1.0), ("kPa/m", 1e3), ("MPa/m", 1e6), ("GPa/m", 1e9), ("GPa/mm", 1e12)]
+    WORK_PER_AREA work_per_area optional_work_per_area "a work per area" [("J/m2", 1.0), ("J/m^2", 1.0), ("mJ/m2", 1e-3), ("mJ/m^2", 1e-3), ("N/m", 1.0), ("mN/m", 1e-3)]
     SPEED speed optional_speed "a speed" [("m/s", 1.0), ("cm/s", 1e-2), ("mm/s", 1e-3), ("km/h", 1.0 / 3.6)]
     SPIN spin optional_spin "an angular speed" [("rad/s", 1.0), ("deg/s", std::f64::consts::PI / 180.0), ("rpm", std::f64::consts::PI / 30.0)]
     FREQUENCY frequency optional_frequency "a frequency" [("Hz", 1.0), ("kHz", 1e3), ("rpm", 1.0 / 60.0)]

@@ -1,33 +1,10 @@
-//! The laws by name.
+//! The laws of erosion by name.
 
-use abrade::quantity::{ANGLE, Dimension, FORCE, LENGTH, MASS, PRESSURE, SPEED};
+use abrade::quantity::{ANGLE, LENGTH, MASS, SPEED};
 
+use super::{PASCAL, PLAIN, VOLUME, condition, constant};
 use crate::erosion::{Dnv, Finnie1960, Finnie1972, Grit, Impact, Oka, Steel, SteelCurve};
-use crate::law::{Allowed, Given, Law, Output, Parameter, Status};
-use crate::sliding::{Archard, cone_section, groove_section};
-
-/// A condition, which has to be given.
-const fn condition(
-    name: &'static str,
-    (dimension, unit): (Option<Dimension>, &'static str),
-    allowed: Allowed,
-    meaning: &'static str,
-) -> Parameter {
-    Parameter { name, meaning, dimension, unit, default: None, allowed }
-}
-
-/// A constant, a pure number.
-const fn constant(
-    name: &'static str,
-    default: f64,
-    allowed: Allowed,
-    meaning: &'static str,
-) -> Parameter {
-    Parameter { name, meaning, dimension: None, unit: "", default: Some(default), allowed }
-}
-
-const PLAIN: (Option<Dimension>, &str) = (None, "");
-const PASCAL: (Option<Dimension>, &str) = (Some(PRESSURE), "Pa");
+use crate::law::{Allowed, Given, Law, Output, Parameter, Status, Value};
 
 const IMPACT_MASS: Parameter =
     condition("mass", (Some(MASS), "kg"), Allowed::Positive, "mass of the particle");
@@ -41,12 +18,6 @@ const FLOW_PRESSURE: Parameter = condition(
     Allowed::Positive,
     "plastic flow pressure of the surface; its hardness, where no better is known",
 );
-const HARDNESS: Parameter =
-    condition("hardness", PASCAL, Allowed::Positive, "hardness of the softer surface");
-const LOAD: Parameter =
-    condition("load", (Some(FORCE), "N"), Allowed::NotNegative, "load along the normal");
-const WAY: Parameter =
-    condition("way", (Some(LENGTH), "m"), Allowed::NotNegative, "way of the slide");
 const BRINELL: Parameter =
     condition("brinell", PLAIN, Allowed::Positive, "Brinell hardness of the surface, kgf/mm2");
 const VICKERS: Parameter =
@@ -62,13 +33,10 @@ const SHARPNESS: Parameter = condition(
 const FORCE_RATIO: Parameter =
     constant("force_ratio", 2.0, Allowed::Positive, "K: vertical over horizontal force");
 
-const VOLUME: Output = Output { name: "volume", unit: "m3" };
-const SECTION: Output = Output { name: "section", unit: "m2" };
 const RATIO: Output = Output { name: "mass over mass of particles", unit: "kg/kg" };
 const PER_MASS: Output = Output { name: "volume over mass of particles", unit: "m3/kg" };
 
-/// Every law, erosion first.
-pub const LAWS: &[Law] = &[
+pub(super) const LAWS: &[Law] = &[
     Law {
         name: "finnie-1960",
         title: "Finnie (1960): a sharp particle cuts a ductile surface, without turning",
@@ -92,7 +60,7 @@ pub const LAWS: &[Law] = &[
         from_memory: None,
         source: "Wear 3 (1960) 87-103; form and constants as in OpenFOAM's ParticleErosion. No \
                  wear at 90 deg, which measurements show",
-        value: |given| {
+        value: Value::Number(|given| {
             let law = Finnie1960 {
                 flow_pressure: given["pressure"],
                 cutting_share: given["cutting"],
@@ -100,7 +68,7 @@ pub const LAWS: &[Law] = &[
                 force_ratio: given["force_ratio"],
             };
             law.volume(&heavy_impact(given))
-        },
+        }),
     },
     Law {
         name: "finnie-1972",
@@ -126,7 +94,7 @@ pub const LAWS: &[Law] = &[
         from_memory: None,
         source: "Wear 19 (1972) 81-90 is not read here; the form is derived from the motion of a \
                  particle that turns, the constants are those of COMSOL's manual",
-        value: |given| {
+        value: Value::Number(|given| {
             let law = Finnie1972 {
                 flow_pressure: given["pressure"],
                 cutting_share: given["cutting"],
@@ -134,7 +102,7 @@ pub const LAWS: &[Law] = &[
                 inertia_ratio: given["inertia_ratio"],
             };
             law.volume(&heavy_impact(given))
-        },
+        }),
     },
     oka("oka-quartz", "Oka (2005): quartz sand", |given| oka_of(given, Grit::QUARTZ)),
     oka("oka-carbide", "Oka (2005): silicon carbide", |given| oka_of(given, Grit::CARBIDE)),
@@ -159,9 +127,9 @@ pub const LAWS: &[Law] = &[
         status: Status::Seen,
         from_memory: None,
         source: "recommended practice DNV RP-O501; the defaults are those of steel",
-        value: |given| {
+        value: Value::Number(|given| {
             Dnv { factor: given["factor"], power: given["power"] }.ratio(&impact(given, 1.0))
-        },
+        }),
     },
     Law {
         name: "ecrc",
@@ -178,7 +146,7 @@ pub const LAWS: &[Law] = &[
         status: Status::Seen,
         from_memory: None,
         source: "Wear 263 (2007) 330-338",
-        value: |given| steel(given, SteelCurve::Zhang),
+        value: Value::Number(|given| steel(given, SteelCurve::Zhang)),
     },
     Law {
         name: "ahlert",
@@ -197,80 +165,9 @@ pub const LAWS: &[Law] = &[
         from_memory: Some("factor"),
         source: "constants of f as in the manual of Autodesk CFD, where y has the other sign; with \
                  this one f is continuous at 15 deg to 0.011",
-        value: |given| steel(given, SteelCurve::Ahlert),
-    },
-    Law {
-        name: "archard",
-        title: "Archard (1953): volume worn along a slide",
-        formula: "K F s / H",
-        output: VOLUME,
-        parameters: &[LOAD, WAY, HARDNESS, WEAR_COEFFICIENT],
-        status: Status::Seen,
-        from_memory: None,
-        source: "J. Appl. Phys. 24 (1953) 981-988. Texts differ by 3 in what they call K: some write \
-                 V = K F s / (3 H). Load times way, which is friction work only where friction is \
-                 the same everywhere",
-        value: |given| archard(given).volume(given["load"], given["way"]),
-    },
-    Law {
-        name: "archard-depth",
-        title: "Archard (1953): depth worn along a slide",
-        formula: "K p s / H",
-        output: Output { name: "depth", unit: "m" },
-        parameters: &[
-            condition("pressure", PASCAL, Allowed::NotNegative, "pressure on the place"),
-            WAY,
-            HARDNESS,
-            WEAR_COEFFICIENT,
-        ],
-        status: Status::Derived,
-        from_memory: None,
-        source: "the law of archard over the area that bears",
-        value: |given| archard(given).depth(given["pressure"], given["way"]),
-    },
-    Law {
-        name: "cone-groove",
-        title: "Groove of a rigid cone under a load (Rabinowicz 1965)",
-        formula: "2 F tan(theta) / (pi H)",
-        output: SECTION,
-        parameters: &[
-            LOAD,
-            HARDNESS,
-            condition(
-                "flank",
-                (Some(ANGLE), "rad"),
-                Allowed::Angle,
-                "theta, from surface to flank",
-            ),
-        ],
-        status: Status::Derived,
-        from_memory: None,
-        source: "the front half of the contact bears the load at the hardness",
-        value: |given| cone_section(given["load"], given["hardness"], given["flank"]),
-    },
-    Law {
-        name: "ball-groove",
-        title: "Groove of a rigid ball under a load",
-        formula: "R^2 asin(a/R) - a sqrt(R^2 - a^2); a^2 = 2 F / (pi H)",
-        output: SECTION,
-        parameters: &[
-            LOAD,
-            HARDNESS,
-            condition("radius", (Some(LENGTH), "m"), Allowed::Positive, "R of the ball"),
-        ],
-        status: Status::Derived,
-        from_memory: None,
-        source: "the front half of the contact bears the load at the hardness",
-        value: |given| groove_section(given["load"], given["hardness"], given["radius"]),
+        value: Value::Number(|given| steel(given, SteelCurve::Ahlert)),
     },
 ];
-
-const WEAR_COEFFICIENT: Parameter = condition(
-    "coefficient",
-    PLAIN,
-    Allowed::NotNegative,
-    "K: 1e-8 to 1e-4 where wear is mild, 1e-3 to 1e-1 where it is abrasive",
-);
 
 const fn oka(name: &'static str, title: &'static str, value: fn(&Given<'_>) -> f64) -> Law {
     Law {
@@ -283,7 +180,7 @@ const fn oka(name: &'static str, title: &'static str, value: fn(&Given<'_>) -> f
         status: Status::Seen,
         from_memory: Some("s and q of n1 and n2"),
         source: "Wear 259 (2005) 95-109; form, K and k as in the manual of EDEM",
-        value,
+        value: Value::Number(value),
     }
 }
 
@@ -295,10 +192,6 @@ fn oka_of(given: &Given<'_>, grit: Grit) -> f64 {
 fn steel(given: &Given<'_>, curve: SteelCurve) -> f64 {
     let [factor, brinell, sharpness] = ["factor", "brinell", "sharpness"].map(|name| given[name]);
     Steel { curve, factor, brinell, sharpness }.ratio(&impact(given, 1.0))
-}
-
-fn archard(given: &Given<'_>) -> Archard {
-    Archard { coefficient: given["coefficient"], hardness: given["hardness"] }
 }
 
 fn heavy_impact(given: &Given<'_>) -> Impact {
