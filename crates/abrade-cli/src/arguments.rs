@@ -190,7 +190,10 @@ impl From<Precision> for abrade_scene::Precision {
 
 /// Arguments of `laws`.
 #[derive(Args)]
+#[command(args_conflicts_with_subcommands = true)]
 pub(crate) struct LawsArguments {
+    #[command(subcommand)]
+    pub(crate) command: Option<LawsCommand>,
     /// Name of the law; without one, all are listed.
     pub(crate) name: Option<String>,
     /// Its conditions and constants, as in angle="30 deg"; bare numbers are in SI. One may be a list,
@@ -203,6 +206,44 @@ pub(crate) struct LawsArguments {
     /// Print the value as a table with commas.
     #[arg(long)]
     pub(crate) csv: bool,
+}
+
+/// What is asked of laws beside a value.
+#[derive(Subcommand)]
+pub(crate) enum LawsCommand {
+    /// Tabulate and draw a model of a contact: force and contact radius against displacement, coming
+    /// together and parting, and what it takes to part.
+    Contact(ContactArguments),
+}
+
+/// Arguments of `laws contact`.
+#[derive(Args)]
+pub(crate) struct ContactArguments {
+    /// Name of the model; without one, all are listed.
+    pub(crate) model: Option<String>,
+    /// Its constants, as in radius="1 mm" modulus="1 GPa" adhesion="0.1 J/m2"; bare numbers are in SI. In
+    /// the place of modulus: young and poisson, and in that of radius two radii, each of one side or of
+    /// both, as in young="200 GPa, 70 GPa"; a side that is left out is a rigid flat. A list of
+    /// displacement makes the rows of the table; distance, z0, tells which model holds.
+    #[arg(value_name = "NAME=VALUE")]
+    pub(crate) given: Vec<String>,
+    /// The pull-off force of DMT, Maugis-Dugdale and JKR against Tabor's parameter, in the place of a
+    /// model's curve.
+    #[arg(long, conflicts_with_all = ["model", "given"])]
+    pub(crate) limits: bool,
+    /// Draw it into this file (PNG).
+    #[arg(long, value_name = "FILE", value_parser = png)]
+    pub(crate) out: Option<PathBuf>,
+    /// Print the table alone, with commas.
+    #[arg(long)]
+    pub(crate) csv: bool,
+}
+
+/// A file that ends in `.png`.
+fn png(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let is_png = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("png"));
+    if is_png { Ok(path) } else { Err("expected a file that ends in .png".to_owned()) }
 }
 
 /// Arguments of `clump`.

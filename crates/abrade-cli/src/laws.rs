@@ -1,32 +1,45 @@
 //! `abrade laws`: lists the closed-form laws, and evaluates one.
 
 use abrade_laws::{Law, Parameter, laws as all};
+use abrade_scene::suggestion;
 use anyhow::anyhow;
 
-use crate::arguments::LawsArguments;
+use crate::arguments::{LawsArguments, LawsCommand};
 use crate::failure::Failure;
 use crate::say::say;
 
-/// A parameter's values, as they were given and in SI.
-struct Values<'a> {
-    parameter: &'static Parameter,
-    texts: Vec<&'a str>,
-    numbers: Vec<f64>,
-}
+mod contact;
+mod limits;
+mod sides;
+mod values;
+
+use values::{Values, values};
 
 /// Prints the list of laws, or the value of one.
 pub(crate) fn laws(arguments: &LawsArguments) -> Result<(), Failure> {
-    match &arguments.name {
-        Some(name) if arguments.list => say(&told(find(name)?)),
-        Some(name) => evaluate(find(name)?, arguments),
-        None => say(&all().map(told).collect::<Vec<_>>().join("\n")),
+    match (&arguments.command, &arguments.name) {
+        (Some(LawsCommand::Contact(arguments)), _) => contact::contact(arguments),
+        (None, Some(name)) if arguments.list => say(&told(find("law", name, all())?)),
+        (None, Some(name)) => evaluate(find("law", name, all())?, arguments),
+        (None, None) => say(&list(all())),
     }
 }
 
-fn find(name: &str) -> Result<&'static Law, Failure> {
-    all().find(|law| law.name == name).ok_or_else(|| {
-        let names: Vec<_> = all().map(|law| law.name).collect();
-        refused(format!("there is no law `{name}`; there are {}", names.join(", ")))
+fn list(laws: impl Iterator<Item = &'static Law>) -> String {
+    laws.map(told).collect::<Vec<_>>().join("\n")
+}
+
+/// The law, or `what` it is called, with the name `name` among `laws`.
+fn find(
+    what: &str,
+    name: &str,
+    laws: impl Iterator<Item = &'static Law> + Clone,
+) -> Result<&'static Law, Failure> {
+    laws.clone().find(|law| law.name == name).ok_or_else(|| {
+        let names: Vec<_> = laws.map(|law| law.name).collect();
+        let near = suggestion(name, names.iter().copied());
+        let there = near.map_or("there".to_owned(), |near| format!("{near} There"));
+        refused(format!("there is no {what} `{name}`; {there} are {}", names.join(", ")))
     })
 }
 
@@ -100,28 +113,4 @@ fn table(law: &Law, list: Option<&Values<'_>>, results: &[f64], csv: bool) -> St
             format!("{:<12} {heading}\n{}", parameter.name, rows.collect::<String>())
         }
     }
-}
-
-/// Reads `NAME=VALUE` or `NAME=VALUE, VALUE, ..`.
-fn values<'a>(law: &Law, text: &'a str) -> Result<Values<'a>, Failure> {
-    let (name, list) = text
-        .split_once('=')
-        .ok_or_else(|| refused(format!("`{text}` is no NAME=VALUE, as in angle=\"30 deg\"")))?;
-    let at = law.find(name.trim()).map_err(|error| Failure::Input(error.into()))?;
-    let parameter = &law.parameters[at];
-    let texts: Vec<&str> = list.split(',').map(str::trim).collect();
-    let numbers = texts.iter().map(|text| number(parameter, text)).collect::<Result<_, _>>()?;
-    Ok(Values { parameter, texts, numbers })
-}
-
-/// A number in SI, or with its unit.
-fn number(parameter: &Parameter, text: &str) -> Result<f64, Failure> {
-    if let Ok(number) = text.parse() {
-        return Ok(number);
-    }
-    let number = match parameter.dimension {
-        Some(dimension) => dimension.parse(text),
-        None => Err(format!("`{text}` is no number")),
-    };
-    number.map_err(|message| refused(format!("`{}`: {message}", parameter.name)))
 }

@@ -36,8 +36,20 @@ pub struct Series {
     pub points: Vec<[f64; 2]>,
     /// Half lengths of the bars at the points, upwards and downwards; empty without bars.
     pub bars: Vec<f64>,
-    /// Drawn dashed and without dots: a formula.
-    pub is_formula: bool,
+    /// How it is drawn.
+    pub stroke: Stroke,
+}
+
+/// How a curve is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Stroke {
+    /// A line with a dot at every point: values at places.
+    #[default]
+    Dots,
+    /// A line alone.
+    Line,
+    /// Dashes: a formula beside what was found, or one of two branches.
+    Dashes,
 }
 
 impl Series {
@@ -96,10 +108,10 @@ impl Chart<'_> {
         let x = self.x.range(values(0));
         let y = self.y.range(ends);
         self.grid(&mut canvas, x, y)?;
-        // Dashes tell formulas from the others: they begin with the first colour again.
+        // Dashes tell their curves from the others: they begin with the first colour again.
         let mut colours = [0, 0];
         for (at, series) in self.series.iter().enumerate() {
-            let next = &mut colours[usize::from(series.is_formula)];
+            let next = &mut colours[usize::from(series.stroke == Stroke::Dashes)];
             let colour = COLOURS[*next % COLOURS.len()];
             *next += 1;
             self.curve(&mut canvas, [x, y], (at, colour), series)?;
@@ -145,14 +157,15 @@ impl Chart<'_> {
         let along = |value: f64| PLOT.left + x.share(value) * PLOT.width();
         let points: Vec<([f64; 2], f64)> = self.drawn(series).collect();
         let line: Vec<[f64; 2]> = points.iter().map(|([a, b], _)| [along(*a), up(*b)]).collect();
-        let strokes = |line: &[[f64; 2]]| match series.is_formula {
-            true => dashes(line),
-            false => vec![line.to_vec()],
+        let strokes = |line: &[[f64; 2]]| match series.stroke {
+            Stroke::Dashes => dashes(line),
+            Stroke::Dots | Stroke::Line => vec![line.to_vec()],
         };
         for stroke in strokes(&line).iter().filter(|stroke| stroke.len() > 1) {
             canvas.line(stroke, colour, WIDTH)?;
         }
-        for ([a, b], bar) in points.iter().filter(|_| !series.is_formula) {
+        let has_dots = series.stroke == Stroke::Dots;
+        for ([a, b], bar) in points.iter().filter(|_| has_dots) {
             let ends =
                 [b - bar, b + bar].map(|end| [along(*a), up(end).clamp(PLOT.top, PLOT.bottom)]);
             canvas.line(&ends, colour, 1.5)?;
@@ -163,7 +176,7 @@ impl Chart<'_> {
         for stroke in strokes(&[[left, down], [left + 34.0, down]]) {
             canvas.line(&stroke, colour, WIDTH)?;
         }
-        if !series.is_formula {
+        if has_dots {
             canvas.dot([left + 17.0, down], 5.0, colour)?;
         }
         let nothing = if line.is_empty() { " (nothing to show)" } else { "" };

@@ -12,8 +12,39 @@ pub fn volume(value: f64) -> String {
 
 /// `value` [m] with three digits, in the unit that suits it.
 pub fn length(value: f64) -> String {
-    scaled(value, &[(1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm")])
+    scaled(value, &LENGTHS)
 }
+
+/// `value` [N].
+pub fn force(value: f64) -> String {
+    scaled(value, &FORCES)
+}
+
+/// `value` [J].
+pub fn energy(value: f64) -> String {
+    const STEPS: [(f64, &str); 6] =
+        [(1.0, "J"), (1e-3, "mJ"), (1e-6, "uJ"), (1e-9, "nJ"), (1e-12, "pJ"), (1e-15, "fJ")];
+    scaled(value, &STEPS)
+}
+
+/// `value` [Pa].
+pub fn pressure(value: f64) -> String {
+    scaled(value, &[(1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa")])
+}
+
+/// Size [m] and name of the unit of length that suits `value` [m].
+pub fn length_unit(value: f64) -> (f64, &'static str) {
+    fitting(value, &LENGTHS)
+}
+
+/// Size [N] and name of the unit of force that suits `value` [N].
+pub fn force_unit(value: f64) -> (f64, &'static str) {
+    fitting(value, &FORCES)
+}
+
+const LENGTHS: [(f64, &str); 4] = [(1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm")];
+const FORCES: [(f64, &str); 6] =
+    [(1e3, "kN"), (1.0, "N"), (1e-3, "mN"), (1e-6, "uN"), (1e-9, "nN"), (1e-12, "pN")];
 
 /// `value` [bytes].
 pub fn memory(value: f64) -> String {
@@ -25,12 +56,15 @@ pub fn time(value: f64) -> String {
     scaled(value, &[(3600.0, "h"), (60.0, "min"), (1.0, "s"), (1e-3, "ms"), (1e-6, "us")])
 }
 
-fn scaled(value: f64, units: &[(f64, &str)]) -> String {
+fn scaled<const N: usize>(value: f64, units: &[(f64, &'static str); N]) -> String {
+    let (factor, unit) = fitting(value, units);
+    format!("{} {unit}", digits(value / factor))
+}
+
+/// The largest unit of which `value` is one at least, but for rounding; else the smallest.
+fn fitting<const N: usize>(value: f64, units: &[(f64, &'static str); N]) -> (f64, &'static str) {
     let fits = units.iter().find(|(factor, _)| value.abs() >= 0.9995 * factor);
-    match fits.or(units.last()) {
-        Some((factor, unit)) => format!("{} {unit}", digits(value / factor)),
-        None => digits(value),
-    }
+    *fits.unwrap_or(&units[N - 1])
 }
 
 /// Three significant digits, without trailing zeros.
@@ -54,5 +88,9 @@ mod tests {
         assert_eq!(time(7200.0), "2 h");
         assert_eq!(memory(123_456.0), "123 kB");
         assert_eq!(digits(2.8274e-7), "2.83e-7");
+        assert_eq!(force(-4.71239e-4), "-471 uN");
+        assert_eq!(energy(2.5195e-11), "25.2 pJ");
+        assert_eq!(pressure(1e9), "1 GPa");
+        assert_eq!(length_unit(4.2e-8), (1e-9, "nm"));
     }
 }

@@ -107,10 +107,7 @@ pub(crate) fn nearest<'a>(
 }
 
 /// `did you mean ..?`, if a known name is near.
-pub(crate) fn suggestion<'a>(
-    found: &str,
-    known: impl IntoIterator<Item = &'a str>,
-) -> Option<String> {
+pub fn suggestion<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
     nearest(found, known).map(|name| format!("did you mean `{name}`?"))
 }
 

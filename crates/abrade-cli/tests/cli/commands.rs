@@ -1,4 +1,4 @@
-//! `check`, `clump`, `laws` and `schema`.
+//! `check`, `clump` and `schema`.
 
 use super::Folder;
 
@@ -58,43 +58,6 @@ fn schema_describes_every_field() {
     assert!(said.out.contains(speed), "{}", said.out);
     let stop = "run.stop = Time(..)\n    After a time.\n";
     assert!(said.out.contains(stop), "{}", said.out);
-}
-
-/// Fails for a law that takes degrees for radians or a unit for another, and for a list that is not
-/// walked through.
-#[test]
-fn a_law_is_evaluated_where_it_is_asked_for() {
-    let folder = Folder::new("laws");
-    let given = ["mass=1 mg", "speed=50 m/s", "pressure=2.7 GPa"];
-    let finnie =
-        |rest: &[&str]| folder.abrade(&[&["laws", "finnie-1960"], &given[..], rest].concat());
-    assert_eq!(finnie(&["angle=30 deg"]).out, "volume [m3] = 5.787037037037038e-14\n");
-    let said = finnie(&["angle=30 deg, 90 deg", "--csv"]);
-    let rows: Vec<_> = said.out.lines().collect();
-    assert_eq!(rows[..2], ["angle [rad],volume [m3]", "0.5235987755982988,5.787037037037038e-14"]);
-    assert_eq!(rows.len(), 3);
-    let said = folder.abrade(&["laws"]);
-    for law in ["archard\n", "oka-quartz\n", "status: seen; from memory"] {
-        assert!(said.out.contains(law), "{}", said.out);
-    }
-}
-
-#[test]
-fn what_a_law_cannot_take_is_bad_input() {
-    let folder = Folder::new("bad laws");
-    let error = |arguments: &[&str]| {
-        let said = folder.abrade(&[&["laws"], arguments].concat());
-        assert_eq!(said.code, Some(2));
-        said.err
-    };
-    assert!(
-        error(&["finnie"]).starts_with("error: there is no law `finnie`; there are finnie-1960, ")
-    );
-    assert_eq!(error(&["dnv", "speed=50"]), "error: dnv needs `angle`: angle from the surface\n");
-    let said = error(&["dnv", "speed=50", "angle=30 mm"]);
-    assert!(said.starts_with("error: `angle`: `mm` does not measure an angle; "), "{said}");
-    let said = error(&["dnv", "speed=50, 60", "angle=0.1, 0.2"]);
-    assert_eq!(said, "error: `speed` and `angle` are lists; one parameter may be\n");
 }
 
 #[test]

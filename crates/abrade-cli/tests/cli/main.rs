@@ -10,6 +10,7 @@ mod bad_streams;
 mod bad_values;
 mod bad_words;
 mod commands;
+mod laws;
 mod studies;
 mod views;
 

@@ -29,7 +29,7 @@ pub use jkr::Jkr;
 pub use maugis::MaugisDugdale;
 pub use pair::{Pair, Side};
 pub use simplified_jkr::SimplifiedJkr;
-pub use tabor::{Advice, maugis_lambda, tabor};
+pub use tabor::{Advice, LAMBDA_OVER_TABOR, maugis_lambda, tabor};
 
 /// Whether the bodies touched just before: the memory that adhesion has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -6,7 +6,7 @@ use super::{ContactError, Pair, above_zero};
 
 /// Lambda over Tabor's parameter, where the strength of the adhesion is the largest attraction of
 /// Lennard-Jones surfaces, 16 w / (9 sqrt(3) z0); the digits are Maugis'.
-pub(super) const LAMBDA_OVER_TABOR: f64 = 1.157;
+pub const LAMBDA_OVER_TABOR: f64 = 1.157;
 
 /// Tabor's parameter [-]: mu = (R w^2 / (E*^2 z0^3))^(1/3), how far adhesion pulls the bodies out of shape
 /// over the `distance` z0 [m] at which they attract each other, with a work of `adhesion` w [J/m2].

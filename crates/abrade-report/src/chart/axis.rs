@@ -24,6 +24,9 @@ pub enum Scale {
 /// Distance between ticks of a linear axis that is aimed at [pixels].
 const PACE: f64 = 110.0;
 
+/// Room beyond the outermost values of a linear axis, as a share of their range.
+const MARGIN: f64 = 0.03;
+
 /// The part of an axis that a chart shows; in whole decades or in values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Range {
@@ -58,7 +61,9 @@ impl Axis<'_> {
             (Scale::Linear, false) => {
                 let low = low.min(0.0);
                 let high = if high > low { high } else { low + 1.0 };
-                Range::Linear([low, high + 0.03 * (high - low)])
+                // Zero is the frame itself; other ends keep off it.
+                let margin = MARGIN * (high - low);
+                Range::Linear([if low < 0.0 { low - margin } else { low }, high + margin])
             }
             (Scale::Log, false) => {
                 let low = (low.log10() + 1e-9).floor() as i32;

@@ -1,7 +1,7 @@
 //! The charts of a study: wear and ratio against angle, debris beside laws, wear against speed.
 
 use abrade_report::ReportError;
-use abrade_report::chart::{Axis, Chart, Scale, Series};
+use abrade_report::chart::{Axis, Chart, Scale, Series, Stroke};
 
 use super::laws;
 use super::statistics::Estimate;
@@ -56,7 +56,7 @@ impl Erosion {
             series.push(Series {
                 name: law.name.to_owned(),
                 points: points.map(|(angle, volume)| [angle.to_degrees(), *volume]).collect(),
-                is_formula: true,
+                stroke: Stroke::Dashes,
                 ..Series::default()
             });
         }

@@ -1,0 +1,58 @@
+//! `NAME=VALUE` on the command line of a law.
+
+use abrade_laws::{Law, LawError, Parameter};
+use abrade_scene::suggestion;
+
+use super::refused;
+use crate::failure::Failure;
+
+/// A parameter's values, as they were given and in SI.
+pub(super) struct Values<'a> {
+    pub(super) parameter: &'static Parameter,
+    pub(super) texts: Vec<&'a str>,
+    pub(super) numbers: Vec<f64>,
+}
+
+/// Reads `NAME=VALUE` or `NAME=VALUE, VALUE, ..`.
+pub(super) fn values<'a>(law: &Law, text: &'a str) -> Result<Values<'a>, Failure> {
+    let (name, list) = named(text)?;
+    let at = law.find(name).map_err(|error| unknown(law, name, &error))?;
+    of_parameter(&law.parameters[at], list)
+}
+
+/// The two sides of `NAME=VALUE`.
+pub(super) fn named(text: &str) -> Result<(&str, &str), Failure> {
+    let parts = text.split_once('=');
+    let (name, list) = parts
+        .ok_or_else(|| refused(format!("`{text}` is no NAME=VALUE, as in angle=\"30 deg\"")))?;
+    Ok((name.trim(), list))
+}
+
+/// Reads the values of a parameter, with commas between them.
+pub(super) fn of_parameter<'a>(
+    parameter: &'static Parameter,
+    list: &'a str,
+) -> Result<Values<'a>, Failure> {
+    let texts: Vec<&str> = list.split(',').map(str::trim).collect();
+    let numbers = texts.iter().map(|text| number(parameter, text)).collect::<Result<_, _>>()?;
+    Ok(Values { parameter, texts, numbers })
+}
+
+/// The refusal of a name that the law does not have, with the one that was probably meant.
+fn unknown(law: &Law, name: &str, error: &LawError) -> Failure {
+    let near = suggestion(name, law.parameters.iter().map(|parameter| parameter.name));
+    let near = near.map_or_else(String::new, |near| format!("; {near}"));
+    refused(format!("{error}{near}"))
+}
+
+/// A number in SI, or with its unit.
+fn number(parameter: &Parameter, text: &str) -> Result<f64, Failure> {
+    if let Ok(number) = text.parse() {
+        return Ok(number);
+    }
+    let number = match parameter.dimension {
+        Some(dimension) => dimension.parse(text),
+        None => Err(format!("`{text}` is no number")),
+    };
+    number.map_err(|message| refused(format!("`{}`: {message}", parameter.name)))
+}
