@@ -1,6 +1,6 @@
 //! `abrade laws`: lists the closed-form laws, and evaluates one.
 
-use abrade_laws::{Law, Parameter, laws as all};
+use abrade_laws::{Law, Parameter, Status, laws as all};
 use abrade_scene::suggestion;
 use anyhow::anyhow;
 
@@ -49,9 +49,11 @@ fn refused(message: String) -> Failure {
 
 /// All that is known of a law.
 fn told(law: &Law) -> String {
-    let memory = law
-        .from_memory
-        .map_or_else(String::new, |what| format!("; from memory, not found in a source: {what}"));
+    let memory = match (law.status, law.from_memory) {
+        (_, None) => String::new(),
+        (Status::Memory, Some(what)) => format!(", not found in a source: {what}"),
+        (_, Some(what)) => format!("; from memory, not found in a source: {what}"),
+    };
     let mut text = format!(
         "{}\n  {}\n  {} [{}] = {}\n  status: {}{memory}\n  source: {}\n",
         law.name,

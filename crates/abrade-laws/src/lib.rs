@@ -18,6 +18,9 @@ mod law;
 pub mod sliding;
 
 pub use catalogue::laws;
-pub use erosion::{Dnv, Finnie1960, Finnie1972, Grit, Impact, Oka, Steel, SteelCurve};
+pub use erosion::{
+    Arabnejad, Bitter, Dnv, Evans, Finnie1960, Finnie1972, Grit, Huang, Impact, NeilsonGilchrist,
+    Oka, Steel, SteelCurve, TabakoffGrant, bitter_threshold,
+};
 pub use law::{Allowed, Law, LawError, Output, Parameter, Status};
-pub use sliding::{Archard, cone_section, groove_section};
+pub use sliding::{Archard, cone_section, groove_section, preston_depth};

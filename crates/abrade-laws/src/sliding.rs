@@ -25,6 +25,12 @@ impl Archard {
     }
 }
 
+/// Depth [m] polished off under a pressure [Pa] along a way [m], after Preston: from memory. The `factor`
+/// [1/Pa] is what Archard's law has as K / H.
+pub fn preston_depth(factor: f64, pressure: f64, way: f64) -> f64 {
+    factor * pressure * way
+}
+
 /// Half width over radius below which a segment is summed as a series.
 const SMALL: f64 = 1e-3;
 

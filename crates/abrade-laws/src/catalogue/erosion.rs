@@ -6,11 +6,11 @@ use super::{PASCAL, PLAIN, VOLUME, condition, constant};
 use crate::erosion::{Dnv, Finnie1960, Finnie1972, Grit, Impact, Oka, Steel, SteelCurve};
 use crate::law::{Allowed, Given, Law, Output, Parameter, Status, Value};
 
-const IMPACT_MASS: Parameter =
+pub(super) const IMPACT_MASS: Parameter =
     condition("mass", (Some(MASS), "kg"), Allowed::Positive, "mass of the particle");
-const IMPACT_SPEED: Parameter =
+pub(super) const IMPACT_SPEED: Parameter =
     condition("speed", (Some(SPEED), "m/s"), Allowed::NotNegative, "speed of the particle");
-const IMPACT_ANGLE: Parameter =
+pub(super) const IMPACT_ANGLE: Parameter =
     condition("angle", (Some(ANGLE), "rad"), Allowed::Angle, "angle from the surface");
 const FLOW_PRESSURE: Parameter = condition(
     "pressure",
@@ -24,7 +24,7 @@ const VICKERS: Parameter =
     condition("hardness", PASCAL, Allowed::Positive, "Vickers hardness of the surface");
 const DIAMETER: Parameter =
     condition("diameter", (Some(LENGTH), "m"), Allowed::Positive, "diameter of the particles");
-const SHARPNESS: Parameter = condition(
+pub(super) const SHARPNESS: Parameter = condition(
     "sharpness",
     PLAIN,
     Allowed::Share,
@@ -33,7 +33,7 @@ const SHARPNESS: Parameter = condition(
 const FORCE_RATIO: Parameter =
     constant("force_ratio", 2.0, Allowed::Positive, "K: vertical over horizontal force");
 
-const RATIO: Output = Output { name: "mass over mass of particles", unit: "kg/kg" };
+pub(super) const RATIO: Output = Output { name: "mass over mass of particles", unit: "kg/kg" };
 const PER_MASS: Output = Output { name: "volume over mass of particles", unit: "m3/kg" };
 
 pub(super) const LAWS: &[Law] = &[
@@ -194,10 +194,10 @@ fn steel(given: &Given<'_>, curve: SteelCurve) -> f64 {
     Steel { curve, factor, brinell, sharpness }.ratio(&impact(given, 1.0))
 }
 
-fn heavy_impact(given: &Given<'_>) -> Impact {
+pub(super) fn heavy_impact(given: &Given<'_>) -> Impact {
     impact(given, given["mass"])
 }
 
-fn impact(given: &Given<'_>, mass: f64) -> Impact {
+pub(super) fn impact(given: &Given<'_>, mass: f64) -> Impact {
     Impact { mass, speed: given["speed"], angle: given["angle"] }
 }

@@ -6,11 +6,12 @@ use crate::law::{Allowed, Law, Output, Parameter};
 
 mod contact;
 mod erosion;
+mod remembered;
 mod sliding;
 
-/// Every law: erosion, wear along a slide, contact.
+/// Every law: erosion, wear along a slide, those from memory, contact.
 pub fn laws() -> impl Iterator<Item = &'static Law> + Clone {
-    [erosion::LAWS, sliding::LAWS, contact::LAWS].into_iter().flatten()
+    [erosion::LAWS, sliding::LAWS, remembered::LAWS, contact::LAWS].into_iter().flatten()
 }
 
 /// A condition, which has to be given.
