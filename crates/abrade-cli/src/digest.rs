@@ -91,6 +91,14 @@ fn write_digest(
             energy.initial, energy.kinetic, energy.wear, energy.friction, energy.numerical
         )?;
     }
+    if let Some(laws) = &summary.laws {
+        let own = volume(laws.wear_volume);
+        let said: Vec<_> =
+            laws.predicted.iter().map(|(name, sum)| format!("{name} {}", volume(*sum))).collect();
+        let count = laws.impacts;
+        let said = said.join(", ");
+        writeln!(out, "  laws    {count} impacts over, displaced {own}; by the laws {said}")?;
+    }
     for warning in &summary.warnings {
         writeln!(out, "  note: {warning}")?;
     }

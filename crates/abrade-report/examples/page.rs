@@ -61,6 +61,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         },
         warnings: vec!["Fewer than 12 nodes carried the largest contact.".into()],
         stop: Some("all bodies have rebounded".into()),
+        laws: None,
     };
     Ok(page::write(Path::new(&path), &summary, Some(&picture))?)
 }

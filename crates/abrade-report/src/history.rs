@@ -120,14 +120,14 @@ impl History {
 }
 
 /// The shortest text that reads back as the same number.
-fn plain(value: f64) -> String {
+pub(crate) fn plain(value: f64) -> String {
     match value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
         true => value.to_string(),
         false => format!("{value:e}"),
     }
 }
 
-fn csv_error(path: &Path, error: csv::Error) -> ReportError {
+pub(crate) fn csv_error(path: &Path, error: csv::Error) -> ReportError {
     let source = match error.into_kind() {
         csv::ErrorKind::Io(source) => source,
         other => io::Error::other(format!("{other:?}")),

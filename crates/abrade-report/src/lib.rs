@@ -11,6 +11,7 @@ pub mod atomic;
 pub mod chart;
 mod error;
 pub mod history;
+pub mod impacts;
 mod mesh;
 pub mod mesh_files;
 pub mod page;

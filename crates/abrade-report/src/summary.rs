@@ -52,6 +52,28 @@ pub struct Summary {
     pub warnings: Vec<String>,
     /// Why the run ended, in words.
     pub stop: Option<String>,
+    /// Impacts beside closed-form laws, where the scene names some.
+    #[serde(default)]
+    pub laws: Option<LawsSummary>,
+}
+
+/// The impacts of a run beside closed-form laws.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct LawsSummary {
+    /// Impacts that are over.
+    pub impacts: u64,
+    /// Volume that they displaced [m3].
+    #[serde(rename = "wear_volume_m3")]
+    pub wear_volume: f64,
+    /// Sums of what each law says of them [m3]; null for a law without a finite value at one of them.
+    #[serde(rename = "predicted_m3", deserialize_with = "numbers")]
+    pub predicted: BTreeMap<String, f64>,
+}
+
+/// Reads numbers among which null is none.
+fn numbers<'de, D: serde::Deserializer<'de>>(d: D) -> Result<BTreeMap<String, f64>, D::Error> {
+    let read = BTreeMap::<String, Option<f64>>::deserialize(d)?;
+    Ok(read.into_iter().map(|(name, value)| (name, value.unwrap_or(f64::NAN))).collect())
 }
 
 /// Steps of bodies near a surface, by the resolver that took them.

@@ -6,6 +6,7 @@ mod carrier;
 mod closed;
 mod copies;
 mod hardness;
+mod impact_laws;
 mod led_path;
 mod motion;
 mod placement;

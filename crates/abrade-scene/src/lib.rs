@@ -15,6 +15,7 @@ mod copies;
 mod document;
 mod grain;
 mod hardness;
+mod impact_law;
 mod led_path;
 mod load;
 mod mesh_file;

@@ -24,11 +24,13 @@ mod entries;
 mod estimate;
 mod extent;
 mod frames;
+mod impacts;
 mod record;
 mod samples;
 mod single;
 mod stop;
 mod summary;
+mod touch;
 
 /// Precision of the engine; wear itself is always computed in `f64`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -137,6 +139,7 @@ pub fn run(
         wall: started.elapsed().as_secs_f64(),
         end,
         failure: failure.as_ref(),
+        laws: recorder.laws(),
     };
     let summary = summary::summary(&run);
     recorder.finish(engine.as_ref(), &bodies, &summary)?;
@@ -159,7 +162,7 @@ fn go(
         bodies.lead(engine, [time, dt], run.step);
         recorder.open_step(engine, bodies);
         let stepped = engine.step(dt, &mut recorder.watch(bodies))?;
-        bodies.settle(engine, &stepped);
+        bodies.settle(engine, &stepped, time);
         recorder.close_step(engine, bodies, stepped.dt)?;
         if let Some(end) = stop::reached(run, engine, bodies, &stepped, recorder.time()) {
             return Ok(end);

@@ -64,6 +64,7 @@ fn summary(names: &[&str], nodes: usize) -> Summary {
         error_estimate: ErrorEstimate::default(),
         warnings: Vec::new(),
         stop: None,
+        laws: None,
     }
 }
 

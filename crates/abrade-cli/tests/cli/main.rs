@@ -11,6 +11,7 @@ mod bad_values;
 mod bad_words;
 mod commands;
 mod laws;
+mod laws_beside;
 mod studies;
 mod views;
 

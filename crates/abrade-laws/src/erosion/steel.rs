@@ -70,7 +70,15 @@ impl SteelCurve {
     }
 }
 
+/// Newtons per kilogram-force over square millimetres per square metre: Brinell's unit of pressure [Pa].
+const BRINELL_UNIT: f64 = 9.806_65e6;
+
 impl Steel {
+    /// BH [kgf/mm2] of a surface, if its hardness [Pa] is that number's.
+    pub fn brinell_of(hardness: f64) -> f64 {
+        hardness / BRINELL_UNIT
+    }
+
     /// Mass taken off over the mass of the particles [kg/kg].
     pub fn ratio(&self, impact: &Impact) -> f64 {
         let Self { curve, factor, brinell, sharpness } = *self;

@@ -25,6 +25,7 @@ fn summary() -> Summary {
         error_estimate: ErrorEstimate::default(),
         warnings: vec!["only 3 nodes <touched>".into()],
         stop: Some("interrupted".into()),
+        laws: None,
     }
 }
 

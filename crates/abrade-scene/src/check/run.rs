@@ -18,8 +18,14 @@ impl Checker<'_> {
                 ParameterError::positive("step", run.step),
             ],
         );
-        for (i, output) in self.scene.outputs.iter().enumerate() {
-            self.check_output(&ScenePath::of(["outputs".to_owned(), i.to_string()]), output);
+        let outputs = &self.scene.outputs;
+        let is_laws = |output: &Output| matches!(output, Output::Laws { .. });
+        for (i, output) in outputs.iter().enumerate() {
+            let path = ScenePath::of(["outputs".to_owned(), i.to_string()]);
+            if is_laws(output) && outputs[..i].iter().any(is_laws) {
+                self.refuse(&path, "`Laws` stands twice".into(), "one names all laws");
+            }
+            self.check_output(&path, output);
         }
     }
 
@@ -68,6 +74,9 @@ impl Checker<'_> {
             Output::Surface { every, .. } => {
                 let error = every.and_then(|every| ParameterError::positive("every", every));
                 self.ranges(path, [error]);
+            }
+            Output::Laws { names, surface_density, given } => {
+                self.check_impact_laws(path, names, *surface_density, given);
             }
             Output::Checkpoint => self.not_available(path, "Checkpoint"),
             Output::Bodies

@@ -8,7 +8,8 @@ use crate::carrier::BuiltCarrier;
 use crate::check::Checked;
 use crate::led_path::LedPath;
 use crate::run::engine::{Engine, Met, Sample, Stepped, Stretch};
-use crate::scene::Motion;
+use crate::run::touch::{Target, Touches, touch};
+use crate::scene::{Motion, Output};
 
 /// Speed over the body's largest speed below which it counts as resting.
 const REST: f64 = 1e-6;
@@ -27,6 +28,8 @@ pub(crate) struct Bodies {
     pub solids: Vec<Option<[Point3<f64>; 2]>>,
     /// Contacts that have ended.
     pub impacts: u64,
+    /// Touches and impacts, where the scene asks for them.
+    pub touches: Option<Touches>,
     /// Bodies left to the engine near a surface, with the reason and how often.
     pub refused: Vec<(String, String, u64)>,
     surface_names: Vec<String>,
@@ -87,6 +90,7 @@ impl Bodies {
             .values()
             .map(|built| (!built.surface.is_flat()).then(|| built.surface.bounds()))
             .collect();
+        let asks = checked.scene.outputs.iter().any(|o| matches!(o, Output::Laws { .. }));
         let index = |name: &str| built.surfaces.keys().position(|key| key == name);
         let tracks = built.bodies.iter().map(|(name, body)| {
             let scene = &checked.scene.bodies[name];
@@ -130,6 +134,7 @@ impl Bodies {
             carriers: built.surfaces.values().map(|surface| surface.carrier).collect(),
             solids: solids.clone(),
             impacts: 0,
+            touches: asks.then(|| Touches::new(built.bodies.len())),
             refused: Vec::new(),
             surface_names: built.surfaces.keys().cloned().collect(),
         }
@@ -151,8 +156,11 @@ impl Bodies {
         }
     }
 
-    /// Looks at a contact step.
-    pub(crate) fn see(&mut self, sample: &Sample<'_>) {
+    /// Looks at a contact step of an engine step that began at `begun` [s].
+    pub(crate) fn see(&mut self, sample: &Sample<'_>, begun: f64) {
+        if sample.force != Vector3::zeros() {
+            self.see_touch(sample, begun);
+        }
         let landed = |met: &Met<'_>| {
             let moved = self.carriers[met.index].zip(met.carrier);
             let frame = moved.map_or(self.frames[met.index], |(body, state)| body.frame(&state));
@@ -170,8 +178,45 @@ impl Bodies {
         }
     }
 
-    /// Takes in what a step did.
-    pub(crate) fn settle(&mut self, engine: &dyn Engine, stepped: &Stepped) {
+    /// True while the next touch of a body is asked for.
+    pub(crate) fn awaits_touch(&self, body: usize) -> bool {
+        self.touches.as_ref().is_some_and(|touches| touches.awaits(body))
+    }
+
+    fn see_touch(&mut self, sample: &Sample<'_>, begun: f64) {
+        let Some(touches) = self.touches.as_mut().filter(|t| t.awaits(sample.body)) else { return };
+        let velocity = self.tracks[sample.body].last_velocity;
+        let targets = sample.surfaces.iter().map(|met| {
+            let moved = self.carriers[met.index].zip(met.carrier);
+            let frame = moved.map_or(self.frames[met.index], |(body, state)| body.frame(&state));
+            Target { index: met.index, surface: met.surface, frame, carrier: met.carrier }
+        });
+        let touch = touch(targets, &State { velocity, ..sample.state }, begun + sample.time);
+        touches.begin(sample.body, touch);
+    }
+
+    /// Contacts that no contact step told of begin as the body moved when the step did; then those that
+    /// are over.
+    fn settle_touches(&mut self, engine: &dyn Engine, stepped: &Stepped, time: f64) {
+        let Some(touches) = &mut self.touches else { return };
+        for &(body, surface) in &stepped.started {
+            let carrier = engine.carrier(surface);
+            let frame = self.frames[surface];
+            let target =
+                Target { index: surface, surface: engine.surface(surface), frame, carrier };
+            let velocity = self.tracks[body].last_velocity;
+            let state = State { velocity, ..engine.state(body) };
+            if touches.awaits(body) {
+                touches.begin(body, touch(std::iter::once(target), &state, time));
+            }
+        }
+        touches.end(stepped.worn.iter().copied());
+        touches.drop_idle(|body| engine.in_contact(body));
+    }
+
+    /// Takes in what a step that began at `time` [s] did.
+    pub(crate) fn settle(&mut self, engine: &dyn Engine, stepped: &Stepped, time: f64) {
+        self.settle_touches(engine, stepped, time);
         for ended in &stepped.ended {
             self.impacts += 1;
             let Some(body) = ended.body else { continue };

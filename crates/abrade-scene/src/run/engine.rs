@@ -95,6 +95,10 @@ pub(crate) struct Stepped {
     /// True when a body's first exit ended it.
     pub exited: bool,
     pub ended: Vec<Ended>,
+    /// Contacts that began: (body, surface).
+    pub started: Vec<(usize, usize)>,
+    /// Volumes displaced over contacts that ended: (body, volume [m3]), once for each surface.
+    pub worn: Vec<(usize, f64)>,
     /// Bodies left to the engine near a surface: (body, surface, why); none for the surface's own.
     pub refused: Vec<(Option<usize>, usize, String)>,
 }

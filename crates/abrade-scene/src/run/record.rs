@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use abrade::{Ledger, State};
 use abrade_report::history::{BodyRow, Columns, Row, SurfaceRow};
+use abrade_report::summary::LawsSummary;
 use abrade_report::{History, ReportError, Summary};
 use nalgebra::Vector3;
 
@@ -14,6 +15,7 @@ use crate::run::ending::Ending;
 use crate::run::engine::{Engine, Sample, Watch};
 use crate::run::entries::{Entry, entries};
 use crate::run::frames::Frames;
+use crate::run::impacts::Predictions;
 use crate::run::samples::Course;
 use crate::run::summary::energies;
 use crate::scene::Output;
@@ -31,6 +33,7 @@ pub(crate) struct Recorder {
     title: String,
     outputs: Vec<Output>,
     history: Option<Timed<History>>,
+    predictions: Option<Predictions>,
     frames: Option<Timed<Frames>>,
     energies: bool,
     courses: Vec<Course>,
@@ -96,6 +99,7 @@ impl Recorder {
             title: checked.scene.name.clone(),
             outputs,
             history,
+            predictions: Predictions::new(checked, built, folder)?,
             frames,
             energies,
             courses: Vec::new(),
@@ -111,6 +115,11 @@ impl Recorder {
     /// Simulated time [s].
     pub(crate) fn time(&self) -> f64 {
         self.time
+    }
+
+    /// What laws say of the impacts so far, where the scene names some.
+    pub(crate) fn laws(&self) -> Option<LawsSummary> {
+        self.predictions.as_ref().map(Predictions::summary)
     }
 
     /// Time until the next frame is due [s].
@@ -169,6 +178,9 @@ impl Recorder {
         dt: f64,
     ) -> Result<(), ReportError> {
         self.rows(bodies, dt)?;
+        if let Some(predictions) = &mut self.predictions {
+            predictions.add(bodies)?;
+        }
         for (last, course) in self.last_ledgers.iter_mut().zip(&self.courses) {
             *last = course.at(f64::INFINITY).ledger;
         }
@@ -288,6 +300,9 @@ impl Recorder {
         if let Some(history) = self.history {
             history.it.finish()?;
         }
+        if let Some(predictions) = self.predictions {
+            predictions.finish()?;
+        }
         if let Some(mut frames) = self.frames
             && (frames.it.at_end || !frames.every.is_finite())
         {
@@ -333,15 +348,19 @@ pub(crate) struct Watcher<'a> {
 
 impl Watch for Watcher<'_> {
     fn looks_at(&self, body: usize) -> bool {
-        self.recorder.history.is_some() || self.bodies.tracks[body].learns()
+        self.recorder.history.is_some()
+            || self.bodies.tracks[body].learns()
+            || self.bodies.awaits_touch(body)
     }
 
     fn watches(&self) -> bool {
-        self.recorder.history.is_some() || self.bodies.tracks.iter().any(Track::learns)
+        self.recorder.history.is_some()
+            || self.bodies.touches.is_some()
+            || self.bodies.tracks.iter().any(Track::learns)
     }
 
     fn sample(&mut self, sample: &Sample<'_>) {
-        self.bodies.see(sample);
+        self.bodies.see(sample, self.recorder.time);
         if self.recorder.history.is_none() {
             return;
         }

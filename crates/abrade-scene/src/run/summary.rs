@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use abrade::{ElasticLaw, Ledger};
 use abrade_report::Summary;
 use abrade_report::summary::{
-    BodySummary, EnergySummary, MotionSummary, ResolverCounts, SurfaceSummary,
+    BodySummary, EnergySummary, LawsSummary, MotionSummary, ResolverCounts, SurfaceSummary,
 };
 
 use crate::carrier::BuiltCarrier;
@@ -32,6 +32,7 @@ pub(crate) struct Run<'a> {
     pub setup: f64,
     pub end: End,
     pub failure: Option<&'a RunError>,
+    pub laws: Option<LawsSummary>,
 }
 
 /// The summary of a run.
@@ -82,6 +83,7 @@ pub(crate) fn summary(run: &Run<'_>) -> Summary {
         energy,
         warnings: warnings(run),
         stop: Some(stop),
+        laws: run.laws.clone(),
     }
 }
 

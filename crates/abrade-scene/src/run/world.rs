@@ -207,18 +207,23 @@ impl Engine for World {
             dt: report.dt,
             exited: report.exited.is_some(),
             ended: Vec::new(),
+            started: Vec::new(),
+            worn: Vec::new(),
             refused: Vec::new(),
         };
         let surface_index =
             |id: SurfaceId| self.surfaces.iter().position(|other| *other == id).unwrap_or(0);
         for event in self.wear.events() {
             match event {
-                WearEvent::Ended { body, impulse, contact_time, .. } => {
-                    let ended = Ended {
-                        body: self.indices.get(body).copied(),
-                        impulse: *impulse,
-                        contact_time: *contact_time,
-                    };
+                WearEvent::Started { body, surface } => {
+                    let begun = self.indices.get(body).map(|&b| (b, surface_index(*surface)));
+                    stepped.started.extend(begun);
+                }
+                WearEvent::Ended { body, impulse, volume, contact_time, .. } => {
+                    let index = self.indices.get(body).copied();
+                    stepped.worn.extend(index.map(|b| (b, *volume)));
+                    let ended =
+                        Ended { body: index, impulse: *impulse, contact_time: *contact_time };
                     // A contact with several surfaces ends once for each, with the joint impulse.
                     if stepped.ended.last() != Some(&ended) {
                         stepped.ended.push(ended);
@@ -229,8 +234,7 @@ impl Engine for World {
                     surface_index(*surface),
                     reason.to_string(),
                 )),
-                WearEvent::Started { .. }
-                | WearEvent::Resolved { .. }
+                WearEvent::Resolved { .. }
                 | WearEvent::NoIsland { .. }
                 | WearEvent::Renewed { .. }
                 | WearEvent::NotRenewed { .. }

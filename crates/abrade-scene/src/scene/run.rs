@@ -1,5 +1,7 @@
 //! When a scene's run stops, how closely it computes, what it writes.
 
+use std::collections::BTreeMap;
+
 use abrade::quantity::{self, Quantity};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -102,6 +104,22 @@ pub enum Output {
     Energy,
     /// `report.html`.
     Report,
+    /// `impacts.csv`: every impact with the volume that it displaced, and beside it the volumes that
+    /// closed-form laws of erosion give for its mass, speed and angle at the touch; their sums in the
+    /// summary. A body's diameter is that of the ball of its volume. Bodies are then run one after the
+    /// other.
+    Laws {
+        /// Names of the laws, as `abrade laws` lists them.
+        names: Vec<String>,
+        /// Density of the surfaces [kg/m3], for laws that give masses.
+        #[serde(default, deserialize_with = "quantity::optional_density")]
+        #[schemars(with = "Option<Quantity>")]
+        surface_density: Option<f64>,
+        /// Other parameters of the laws by name, in SI; a hardness or flow pressure that is not given is
+        /// that of the material.
+        #[serde(default)]
+        given: BTreeMap<String, f64>,
+    },
     /// A file from which the run can be resumed; not available yet.
     Checkpoint,
 }

@@ -5,9 +5,6 @@ use abrade_report::quantity_text::digits;
 
 use super::file::StudyFile;
 
-/// Newtons per kilogram-force, in which Brinell's number counts pressures [kgf/mm2].
-const KILOGRAM_FORCE: f64 = 9.806_65e6;
-
 /// Volume per mass that counts as none [mm3/kg].
 const TINY: f64 = 1e-12;
 
@@ -62,7 +59,7 @@ pub(crate) fn predictions_at(file: &StudyFile, speed: f64, angles: &[f64]) -> Ve
     ];
     if let Some(density) = file.target.density {
         let volume = move |ratio: f64| 1e9 * ratio / density;
-        let brinell = hardness / KILOGRAM_FORCE;
+        let brinell = Steel::brinell_of(hardness);
         let steel = |sharpness| Steel {
             curve: SteelCurve::Zhang,
             factor: SteelCurve::Zhang.factor(),
