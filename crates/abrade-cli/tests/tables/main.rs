@@ -3,6 +3,10 @@
 mod closed;
 mod independence;
 mod paper;
+mod polyhedra;
+mod prisms;
 mod run;
 mod scenes;
+mod selfsimilar;
+mod spheres;
 mod theory;
