@@ -44,9 +44,14 @@ fn text(checked: &Checked) -> String {
         let first = checked.streamed.get(name).and_then(|names| names.first());
         let first = first.and_then(|first| scene.bodies.get(first).zip(checked.solids.get(first)));
         if let Some((body, solid)) = first {
-            let (count, every) = (stream.count, time(stream.every));
-            let each = body_text(body, solid);
-            rows.push(row("stream", format!("{name}: {count}, one every {every}, each {each}")));
+            let names = checked.streamed.get(name);
+            let last = names.and_then(|names| checked.due.get(names.last()?)).copied();
+            let (count, last) = (stream.count, time(last.unwrap_or(0.0)));
+            let first = body_text(body, solid);
+            rows.push(row(
+                "stream",
+                format!("{name}: {count} within {last}, the first one {first}"),
+            ));
         }
     }
     let run = &scene.run;

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use abrade_report::Summary;
 use abrade_report::quantity_text::{length, volume};
+use abrade_report::summary::ErosionSummary;
 use abrade_scene::Checked;
 use abrade_scene::scene::Output;
 
@@ -79,6 +80,9 @@ fn write_digest(
         };
         writeln!(out, "  stream  {name:12} {line}")?;
     }
+    if let Some(erosion) = &summary.erosion {
+        writeln!(out, "  erosion {}", erosion_text(erosion))?;
+    }
     if let Some(energy) = &summary.energy {
         let work = match energy.external_work {
             work if work.abs() <= NOTHING * (energy.initial + energy.wear) => String::new(),
@@ -116,4 +120,22 @@ fn write_digest(
         (false, ..) => "summary.json".to_owned(),
     };
     writeln!(out, "  {file} in {}", folder.display())
+}
+
+/// Debris per mass of what has struck.
+fn erosion_text(erosion: &ErosionSummary) -> String {
+    let per_mass = |rate: Option<f64>| rate.map_or(String::new(), |r| format!(" ({r:.3e} kg/kg)"));
+    let ErosionSummary { struck, mass, rate, .. } = *erosion;
+    let mut text = format!(
+        "{rate:.4} mm3/kg{} by {struck} bodies of {:.4e} kg",
+        per_mass(erosion.rate_by_mass),
+        mass
+    );
+    if let Some((steady, deviation)) = erosion.steady.zip(erosion.steady_deviation) {
+        text += &format!(
+            "; steady {steady:.4} +- {deviation:.4} mm3/kg{}",
+            per_mass(erosion.steady_by_mass)
+        );
+    }
+    text
 }

@@ -46,6 +46,9 @@ pub struct Summary {
     pub bodies: BTreeMap<String, BodySummary>,
     /// The ledger, where the scene asks for it.
     pub energy: Option<EnergySummary>,
+    /// What the bodies of streams took off, once one has struck.
+    #[serde(default)]
+    pub erosion: Option<ErosionSummary>,
     /// How far the wear volume may be off.
     pub error_estimate: ErrorEstimate,
     /// What the reader should know, in sentences.
@@ -206,6 +209,33 @@ pub struct EnergySummary {
     /// Added by time integration [J].
     #[serde(rename = "numerical_J")]
     pub numerical: f64,
+}
+
+/// Debris of all surfaces over the mass of the bodies of streams that have struck one. The debris is by
+/// the removal rules of the surfaces, and all that is displaced where they have none. Steady is the
+/// second half of that mass, in which 40 steps with new bodies are needed at least.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ErosionSummary {
+    /// Bodies that have struck.
+    pub struck: u64,
+    /// Their mass [kg].
+    #[serde(rename = "struck_kg")]
+    pub mass: f64,
+    /// Over the whole run [mm3/kg].
+    #[serde(rename = "rate_mm3_per_kg")]
+    pub rate: f64,
+    /// Over the steady part [mm3/kg].
+    #[serde(rename = "steady_mm3_per_kg")]
+    pub steady: Option<f64>,
+    /// Standard error of that, from the scatter of ten blocks of it [mm3/kg].
+    #[serde(rename = "steady_deviation_mm3_per_kg")]
+    pub steady_deviation: Option<f64>,
+    /// Over the whole run [kg/kg]; `None` unless every surface has a density.
+    #[serde(rename = "rate_kg_per_kg")]
+    pub rate_by_mass: Option<f64>,
+    /// Over the steady part [kg/kg]; `None` unless every surface has a density.
+    #[serde(rename = "steady_kg_per_kg")]
+    pub steady_by_mass: Option<f64>,
 }
 
 /// How far the wear volume may be off, relative.

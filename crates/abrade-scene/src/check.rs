@@ -35,6 +35,8 @@ pub struct Checked {
     pub scene: Scene,
     /// Names of the bodies of each stream, in the order in which they come.
     pub streamed: BTreeMap<String, Vec<String>>,
+    /// When the bodies of streams come, by their names [s].
+    pub due: BTreeMap<String, f64>,
     /// Names of the copies of each surface that has some, in the order of their numbers. The
     /// scene's surfaces are the copies.
     pub copied: BTreeMap<String, Vec<String>>,
@@ -55,7 +57,7 @@ pub struct Checked {
 impl Checked {
     /// True for the name of a body of a stream.
     pub fn is_streamed(&self, name: &String) -> bool {
-        self.streamed.values().any(|names| names.binary_search(name).is_ok())
+        self.due.contains_key(name)
     }
 }
 
@@ -83,10 +85,10 @@ pub(crate) fn check(
     }
     solids.extend(streamed.solids);
     scene.bodies.extend(streamed.bodies);
-    let streamed = streamed.names;
+    let (streamed, due) = (streamed.names, streamed.due);
     let copied = BTreeMap::new();
     let mut checked =
-        Checked { scene, streamed, copied, folder, solids, meshes, hardness, paths, notes };
+        Checked { scene, streamed, due, copied, folder, solids, meshes, hardness, paths, notes };
     checked.copy_surfaces();
     Ok(checked)
 }

@@ -21,6 +21,7 @@ mod double;
 mod ending;
 mod engine;
 mod entries;
+mod erosion;
 mod estimate;
 mod extent;
 mod frames;
@@ -29,6 +30,7 @@ mod record;
 mod samples;
 mod single;
 mod stop;
+mod streaming;
 mod summary;
 mod touch;
 
@@ -157,12 +159,14 @@ fn go(
     let run = &checked.scene.run;
     loop {
         let time = recorder.time();
-        let dt = stop::step_length(run, time).min(recorder.until_frame());
+        let next = bodies.bring_due(engine, time, run.step)?;
+        let dt = stop::step_length(run, time).min(recorder.until_frame()).min(next);
         let dt = dt.min(bodies.until_corner(time, run.step));
         bodies.lead(engine, [time, dt], run.step);
         recorder.open_step(engine, bodies);
         let stepped = engine.step(dt, &mut recorder.watch(bodies))?;
         bodies.settle(engine, &stepped, time);
+        bodies.let_go(engine, recorder.time() + stepped.dt);
         recorder.close_step(engine, bodies, stepped.dt)?;
         if let Some(end) = stop::reached(run, engine, bodies, &stepped, recorder.time()) {
             return Ok(end);
@@ -196,6 +200,7 @@ fn engine(
                 ledger,
                 until,
                 drives: &drives,
+                due: &checked.due,
             };
             Box::new($precision::world::World::new(built, &wishes)?)
         }};

@@ -12,6 +12,7 @@ mod hardness;
 mod motion;
 mod run;
 mod shape;
+mod sizes;
 mod stream;
 mod surface;
 mod vectors;
@@ -29,7 +30,8 @@ pub use hardness::{HardnessMap, Region, RegionBox};
 pub use motion::{Motion, Solution};
 pub use run::{MeshFormat, Moment, Output, Resolve, Run, Stop};
 pub use shape::{ClumpInertia, SceneShape};
-pub use stream::Stream;
+pub use sizes::{Sieve, Sizes};
+pub use stream::{ShapeShare, Shares, Stream};
 pub use surface::{PathPoint, SceneSurface, SurfaceMotion};
 
 use abrade::Material;

@@ -102,7 +102,7 @@ pub(crate) fn fixed(
 }
 
 /// True when mass and principal moments are finite and above zero.
-fn is_sound(inertia: &Inertia) -> bool {
+pub(crate) fn is_sound(inertia: &Inertia) -> bool {
     let finite = inertia.mass.is_finite() && inertia.tensor.iter().all(|x| x.is_finite());
     let moments = || inertia.tensor.symmetric_eigenvalues();
     inertia.mass > 0.0 && finite && moments().iter().all(|&moment| moment > 0.0)

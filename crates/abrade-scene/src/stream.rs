@@ -1,36 +1,139 @@
-//! From a stream to its bodies. Their places come from sums, products, quotients and square roots
-//! alone, which every machine rounds alike.
+//! From a stream to its bodies: what comes when, where, how turned and how large.
 
-use nalgebra::{Vector3, Vector4};
+mod draw;
+
+use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 
 use crate::place;
-use crate::scene::{Placement, Rotation, SceneBody, Stream};
+use crate::scene::{Form, Motion, Placement, Rotation, SceneBody, SceneShape, Shares, Stream};
+
+pub(crate) use draw::disc;
 
 /// Most bodies of a stream.
 pub(crate) const MOST: u32 = 100_000;
+/// Added to the seed for sizes and shapes, so that places and rotations do not depend on them.
+const OTHER: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// A shape of a stream, as large as it is written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Kind {
+    /// Share among the others, as written [-].
+    pub share: f64,
+    /// Mass [kg].
+    pub mass: f64,
+    /// Diameter of the sphere of its volume [m]; matters where the stream has sizes.
+    pub diameter: f64,
+}
+
+/// A body of a stream.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Coming {
+    pub name: String,
+    /// When it starts [s].
+    pub due: f64,
+    /// As it starts. Its shape is as large as it is written.
+    pub body: SceneBody,
+    /// Index of its shape.
+    pub kind: usize,
+    /// How many times as large as written it is [-].
+    pub factor: f64,
+}
 
 impl Stream {
-    /// The bodies of the stream `name`, by their names, in the order in which they come.
-    pub(crate) fn bodies(&self, name: &str) -> impl Iterator<Item = (String, SceneBody)> {
-        let (velocity, _) = place::velocity(&self.motion);
+    /// Its shapes with their shares.
+    pub(crate) fn kinds(&self) -> impl Iterator<Item = (&SceneShape, f64)> {
+        let single = self.shape.iter().map(|shape| (shape, 1.0));
+        single.chain(self.shapes.iter().map(|kind| (&kind.shape, kind.share)))
+    }
+
+    /// The bodies of the stream `name`, in the order in which they come; `kinds` tells of its shapes.
+    pub(crate) fn bodies(&self, name: &str, kinds: &[Kind]) -> impl Iterator<Item = Coming> {
+        let (velocity, spin) = place::velocity(&self.motion);
         let [across, up] = square_to(&velocity);
-        let mut generator = Pcg32::seed_from_u64(self.seed);
+        let [mut places, mut others] =
+            [self.seed, self.seed.wrapping_add(OTHER)].map(Pcg32::seed_from_u64);
+        let shapes: Vec<_> = self.kinds().map(|(shape, _)| shape).collect();
+        let weights: Vec<_> = kinds.iter().map(|kind| self.weight(kind)).collect();
+        let mut before = 0.0;
         (0..self.count).map(move |k| {
-            let [a, b] = disc(&mut generator).map(|share| share * self.spread);
-            let behind = velocity * (self.every * f64::from(k));
-            let body = SceneBody {
-                shape: self.shape.clone(),
-                density: self.density,
-                position: moved(&self.position, &(across * a + up * b - behind)),
-                rotation: turned(&mut generator),
-                motion: self.motion.clone(),
-                rotation_locked: false,
+            let [a, b] = disc(&mut places).map(|share| share * self.spread);
+            let rotation = draw::turned(&mut places);
+            let kind = match weights.len() {
+                1 => 0,
+                _ => draw::pick(&mut others, weights.iter().copied()),
             };
-            (numbered(name, u64::from(k) + 1, u64::from(self.count)), body)
+            let diameter = self.sizes.as_ref().map(|sizes| draw::diameter(&mut others, sizes));
+            let factor = diameter.map_or(1.0, |diameter| diameter / kinds[kind].diameter);
+            let motion = match self.divergence > 0.0 {
+                true => {
+                    let [x, y, z] = draw::cone(&mut others, self.divergence);
+                    let aside = across * x + up * y;
+                    let velocity = (velocity * z + aside * velocity.norm()).into();
+                    Motion::Free { velocity, spin: spin.into() }
+                }
+                false => self.motion.clone(),
+            };
+            let due = self.due(k, before);
+            before += kinds[kind].mass * factor.powi(3);
+            let body = SceneBody {
+                position: moved(&self.position, &(across * a + up * b)),
+                rotation,
+                motion,
+                ..self.body(drawn(shapes[kind], &mut others))
+            };
+            let name = numbered(name, u64::from(k) + 1, u64::from(self.count));
+            Coming { name, due, body, kind, factor }
         })
     }
+
+    /// A body of `shape` that starts in the middle of the disc, not turned.
+    pub(crate) fn body(&self, shape: SceneShape) -> SceneBody {
+        SceneBody {
+            shape,
+            density: self.density,
+            position: self.position.clone(),
+            rotation: Rotation::default(),
+            motion: self.motion.clone(),
+            rotation_locked: false,
+        }
+    }
+
+    /// How often a shape comes, over the other ones [-].
+    fn weight(&self, kind: &Kind) -> f64 {
+        match self.shares {
+            // All shapes have the same sizes.
+            Shares::Mass if self.sizes.is_none() => kind.share / kind.mass,
+            Shares::Number | Shares::Mass => kind.share,
+        }
+    }
+
+    /// When the body of number `k`, from 0 on, starts [s], after others with a mass of `before` [kg].
+    fn due(&self, k: u32, before: f64) -> f64 {
+        match (self.every, self.rate, self.mass_rate) {
+            (Some(every), ..) => every * f64::from(k),
+            (_, Some(rate), _) => f64::from(k) / rate,
+            (.., Some(mass_rate)) => before / mass_rate,
+            (None, None, None) => 0.0,
+        }
+    }
+}
+
+/// True for a shape of which every seed makes another body.
+pub(crate) fn is_random(shape: &SceneShape) -> bool {
+    matches!(shape, SceneShape::Grain { form: Form::Grit { .. }, .. })
+}
+
+/// The shape of one body: of a random form, another one for every body.
+fn drawn(shape: &SceneShape, generator: &mut Pcg32) -> SceneShape {
+    let mut shape = shape.clone();
+    if is_random(&shape)
+        && let SceneShape::Grain { seed, .. } = &mut shape
+    {
+        *seed = generator.random();
+    }
+    shape
 }
 
 /// Name of the one with this `number` of the `count` that `name` stands for; names sort like numbers.
@@ -45,30 +148,6 @@ fn square_to(v: &Vector3<f64>) -> [Vector3<f64>; 2] {
     axis[v.iamin()] = 1.0;
     let across = v.cross(&axis).normalize();
     [across, v.normalize().cross(&across)]
-}
-
-/// A point of the unit disc, evenly.
-pub(crate) fn disc(generator: &mut Pcg32) -> [f64; 2] {
-    loop {
-        let [a, b]: [f64; 2] = generator.random();
-        let point = [2.0 * a - 1.0, 2.0 * b - 1.0];
-        if point[0] * point[0] + point[1] * point[1] <= 1.0 {
-            return point;
-        }
-    }
-}
-
-/// Evenly over all rotations (Marsaglia, Annals of Mathematical Statistics 43 (1972) 645).
-fn turned(generator: &mut Pcg32) -> Rotation {
-    loop {
-        let ([a, b], [c, d]) = (disc(generator), disc(generator));
-        let (first, second) = (a * a + b * b, c * c + d * d);
-        if second > 0.0 {
-            let share = ((1.0 - first) / second).sqrt();
-            let xyzw = Vector4::new(a, b, c * share, d * share);
-            return Rotation::Quaternion { xyzw: xyzw.into() };
-        }
-    }
 }
 
 /// The place that lies by `way` from `position`, in the axes of that one.
@@ -90,81 +169,4 @@ fn moved(position: &Placement, way: &Vector3<f64>) -> Placement {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::{Motion, SceneShape};
-
-    fn stream() -> Stream {
-        Stream {
-            shape: SceneShape::Ball { radius: 1e-3 },
-            density: Some(2500.0),
-            count: 4000,
-            every: 2e-3,
-            position: Placement::At { point: [1.0, 2.0, 3.0] },
-            motion: Motion::Free { velocity: [3.0, -4.0, 12.0], spin: [0.0; 3] },
-            spread: 0.1,
-            seed: 7,
-        }
-    }
-
-    /// Fails for bodies that come at other times, ahead of the first one, or heaped about the middle
-    /// of the disc.
-    #[test]
-    fn bodies_follow_each_other_spread_over_a_disc() {
-        let velocity = Vector3::new(3.0, -4.0, 12.0);
-        let (mut sum, mut square) = (Vector3::zeros(), 0.0);
-        let bodies: Vec<_> = stream().bodies("sand").collect();
-        for (k, (_, body)) in bodies.iter().enumerate() {
-            let Placement::At { point } = body.position else { panic!("{body:?}") };
-            let way = Vector3::from(point) - Vector3::new(1.0, 2.0, 3.0);
-            let late = -way.dot(&velocity) / velocity.norm_squared();
-            assert!((late - 2e-3 * k as f64).abs() < 1e-12, "{k}: {late}");
-            let aside = way + velocity * late;
-            assert!(aside.norm() <= 0.1 + 1e-12);
-            sum += aside;
-            square += aside.norm_squared();
-        }
-        // Of an even disc: half the radius squared; standard deviations 0.0008 and 5e-5.
-        let count = bodies.len() as f64;
-        assert!((sum / count).norm() < 4e-3, "{sum}");
-        assert!((square / count - 0.5e-2).abs() < 2e-4, "{square}");
-    }
-
-    /// Fails for names that do not sort in the order of coming, and for bodies that change when
-    /// others are added.
-    #[test]
-    fn a_longer_stream_begins_like_a_shorter_one() {
-        let long: Vec<_> = stream().bodies("sand").collect();
-        assert!(long.is_sorted_by(|a, b| a.0 < b.0));
-        assert_eq!(long[0].0, "sand_0001");
-        let short: Vec<_> = Stream { count: 10, ..stream() }.bodies("sand").collect();
-        let same = short.iter().zip(&long).filter(|(a, b)| a.1 == b.1);
-        assert_eq!((short[9].0.as_str(), same.count()), ("sand_10", 10));
-        let other = Stream { seed: 8, ..stream() };
-        assert_ne!(other.bodies("sand").next(), stream().bodies("sand").next());
-    }
-
-    /// Fails for a generator or a way to draw from it that differs from machine to machine, or from
-    /// release to release: runs are named by their seeds. The bits are those of PCG32 and the same
-    /// sums written out in Python.
-    #[test]
-    fn places_are_the_same_bits_everywhere() {
-        let (_, body) = stream().bodies("sand").nth(2).expect("a body");
-        let (Placement::At { point }, Rotation::Quaternion { xyzw }) =
-            (&body.position, &body.rotation)
-        else {
-            panic!("{body:?}");
-        };
-        let bits: Vec<u64> = point.iter().chain(xyzw).map(|x| x.to_bits()).collect();
-        let expected: [u64; 7] = [
-            4607107756923275754,
-            4611633371271628384,
-            4613806858692905316,
-            4605582545013080790,
-            13815827187218362688,
-            13817662943778700562,
-            4603040664350758979,
-        ];
-        assert_eq!(bits, expected);
-    }
-}
+mod tests;

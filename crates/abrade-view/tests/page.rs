@@ -61,6 +61,7 @@ fn summary(names: &[&str], nodes: usize) -> Summary {
         surfaces: BTreeMap::from([("plate".into(), surface)]),
         bodies: names.iter().map(|name| ((*name).into(), body)).collect(),
         energy: None,
+        erosion: None,
         error_estimate: ErrorEstimate::default(),
         warnings: Vec::new(),
         stop: None,

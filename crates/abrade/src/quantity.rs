@@ -82,6 +82,7 @@ dimensions! {
     ANGLE angle optional_angle "an angle" [("rad", 1.0), ("deg", std::f64::consts::PI / 180.0)]
     FORCE force optional_force "a force" [("N", 1.0), ("mN", 1e-3), ("kN", 1e3), ("MN", 1e6)]
     MASS mass optional_mass "a mass" [("kg", 1.0), ("g", 1e-3), ("mg", 1e-6), ("ug", 1e-9)]
+    MASS_RATE mass_rate optional_mass_rate "a mass per time" [("kg/s", 1.0), ("g/s", 1e-3), ("mg/s", 1e-6), ("g/min", 1e-3 / 60.0), ("kg/h", 1.0 / 3600.0)]
     DENSITY density optional_density "a density" [("kg/m3", 1.0), ("kg/m^3", 1.0), ("g/cm3", 1e3), ("g/cm^3", 1e3)]
     ACCELERATION acceleration optional_acceleration "an acceleration" [("m/s2", 1.0), ("m/s^2", 1.0)]
     TIME time optional_time "a time" [("s", 1.0), ("ms", 1e-3), ("us", 1e-6), ("µs", 1e-6), ("ns", 1e-9), ("min", 60.0), ("h", 3600.0)]

@@ -1,6 +1,6 @@
 //! Streams that cannot be: the whole message.
 
-use super::refused;
+use super::{Folder, SCENE, refused};
 
 /// The stream of the scene, before it is spoilt.
 const STREAM: &str = r#"streams: {
@@ -19,6 +19,18 @@ const STREAM: &str = r#"streams: {
 fn stream_refused(test: &str, changes: &[(&str, &str)], message: &str) {
     let all = [&[("streams: {},", STREAM)][..], changes].concat();
     refused(test, &all, &[], &[], message);
+}
+
+/// What is said of the scene with `changes`.
+fn said(test: &str, changes: &[(&str, &str)]) -> String {
+    let mut text = SCENE.to_owned();
+    for (old, new) in changes {
+        assert!(text.contains(old), "{old}");
+        text = text.replacen(old, new, 1);
+    }
+    let folder = Folder::new(test);
+    folder.write("scene.ron", &text);
+    folder.abrade(&["check", "scene.ron"]).err
 }
 
 #[test]
@@ -75,21 +87,43 @@ scene.ron: 1 problem, nothing was run
     );
 }
 
-/// Fails for a check that looks at the first body alone.
+/// Fails for a check that looks at the first body alone, or at bodies before they have their size.
 #[test]
-fn a_stream_that_comes_through_the_plate() {
-    stream_refused(
-        "a_stream_that_comes_through_the_plate",
-        &[(r#"(0, 0, "-20 m/s")"#, r#"(0, 0, "20 m/s")"#)],
-        r#"error: the body `grit_03` starts 1.100e-2 m inside the surface `plate`
-  --> scene.ron:33:27
-   |
-33 |       position: At(point: (0, 0, "30 mm")),
-   |                           ^^^^^^^^^^^^^^^ must lie above the surface
+fn a_stream_of_which_a_body_starts_in_the_plate() {
+    let changes = [
+        (r#"(0, 0, "30 mm")"#, r#"(0, 0, "3.2 mm")"#),
+        (r#"spread: "2 mm","#, r#"sizes: Uniform(from: "1 mm", to: "7 mm"),"#),
+    ];
+    let all = [&[("streams: {},", STREAM)][..], &changes].concat();
+    let said = said("a_stream_of_which_a_body_starts_in_the_plate", &all);
+    assert!(said.contains("m inside the surface `plate`"), "{said}");
+    assert!(!said.contains("`grit_01`"), "{said}");
+}
 
-scene.ron: 1 problem, nothing was run
-"#,
-    );
+/// Fails for two ways at once to say when bodies come, or none.
+#[test]
+fn a_stream_that_comes_twice_or_never() {
+    for every in ["", r#"every: "1 ms", rate: "1 kHz","#] {
+        let all = [("streams: {},", STREAM), (r#"every: "1 ms","#, every)];
+        let said = said("a_stream_that_comes_twice_or_never", &all);
+        assert!(said.contains("give one of `every`, `rate` and `mass_rate`"), "{said}");
+    }
+}
+
+/// Fails for cut-offs that no draw can meet: the run would wait for one for ever.
+#[test]
+fn sizes_that_nothing_has() {
+    for (sizes, message) in [
+        (r#"Normal(mean: "5 mm", deviation: "1 mm", from: "1 mm", to: "2 mm")"#, "sizes.mean"),
+        (r#"LogNormal(median: "1 mm", deviation: 1e300, from: "1 mm", to: "2 mm")"#, "deviation"),
+        (r#"Uniform(from: "3 mm", to: "2 mm")"#, "sizes.to"),
+        ("Sieves(fractions: [])", "holds no mass"),
+    ] {
+        let with = format!("sizes: {sizes},");
+        let all = [("streams: {},", STREAM), (r#"spread: "2 mm","#, with.as_str())];
+        let said = said("sizes_that_nothing_has", &all);
+        assert!(said.contains(message), "{sizes}: {said}");
+    }
 }
 
 #[test]
@@ -117,7 +151,9 @@ fn a_word_that_streams_have_not() {
   --> scene.ron:33:7
    |
 33 |       at: At(point: (0, 0, "30 mm")),
-   |       ^^ expected `shape`, `density`, `count`, `every`, `position`, `motion`, `spread` or `seed`
+   |       ^^ expected `shape`, `shapes`, `shares`, `sizes`, `density`, `count`, `every`, `rate`, `mass_rate`, `position`, `motion`, `spread`, `divergence` or `seed`
+   |
+   = help: did you mean `rate`?
 
 scene.ron: 1 problem, nothing was run
 "#,

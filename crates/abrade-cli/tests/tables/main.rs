@@ -9,4 +9,5 @@ mod run;
 mod scenes;
 mod selfsimilar;
 mod spheres;
+mod streams;
 mod theory;

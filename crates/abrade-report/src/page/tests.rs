@@ -22,6 +22,7 @@ fn summary() -> Summary {
         surfaces: BTreeMap::from([("plate".into(), surface)]),
         bodies: BTreeMap::new(),
         energy: None,
+        erosion: None,
         error_estimate: ErrorEstimate::default(),
         warnings: vec!["only 3 nodes <touched>".into()],
         stop: Some("interrupted".into()),

@@ -21,6 +21,7 @@ fn sample() -> Summary {
         surfaces: BTreeMap::from([("plate".into(), SurfaceSummary::default())]),
         bodies: BTreeMap::from([("ball".into(), BodySummary::of(&State::at(Point3::origin())))]),
         energy: Some(EnergySummary::default()),
+        erosion: None,
         error_estimate: ErrorEstimate::default(),
         warnings: Vec::new(),
         stop: None,

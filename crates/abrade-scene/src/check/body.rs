@@ -39,14 +39,27 @@ impl Checker<'_> {
         notes: &mut Vec<String>,
     ) -> Option<Solid> {
         self.check_motion(path, body);
-        self.check_law_for(path, body);
         let placed = self.check_place(path, body);
+        let solid = self.check_solid(path, name, body, folder, notes)?;
+        if placed {
+            self.check_outside(path, name, body, &solid, meshes);
+        }
+        Some(solid)
+    }
+
+    /// Checks the shape and the mass of the body that is written at `path`.
+    pub(super) fn check_solid(
+        &mut self,
+        path: &ScenePath,
+        name: &str,
+        body: &SceneBody,
+        folder: &Path,
+        notes: &mut Vec<String>,
+    ) -> Option<Solid> {
+        self.check_law_for(path, body);
         match self.solid(path, body, folder) {
             Ok((solid, note)) => {
                 notes.extend(note.map(|note| format!("body `{name}`: {note}")));
-                if placed {
-                    self.check_outside(path, name, body, &solid, meshes);
-                }
                 return Some(solid);
             }
             Err(Some(trouble)) => self.refuse_shape(path, trouble),
@@ -80,7 +93,7 @@ impl Checker<'_> {
         solid::solid(&body.shape, body.density, mass, folder).map_err(Some)
     }
 
-    fn refuse_shape(&mut self, path: &ScenePath, trouble: SolidTrouble) {
+    pub(super) fn refuse_shape(&mut self, path: &ScenePath, trouble: SolidTrouble) {
         let shape = path.join("shape");
         let message = trouble.to_string();
         match trouble {

@@ -183,8 +183,8 @@ fn union_of(balls: &[Ball]) -> Result<(Solid, f64), SolidTrouble> {
     Ok((Solid { shape, inertia, centre: union.centre.coords }, union.volume))
 }
 
-/// `solid`, of unit density, `factor` times as large and of this `density`.
-fn scaled(solid: &Solid, factor: f64, density: f64) -> Result<Solid, SolidTrouble> {
+/// `solid`, `factor` times as large and of `density` times its density.
+pub(crate) fn scaled(solid: &Solid, factor: f64, density: f64) -> Result<Solid, SolidTrouble> {
     let larger = |piece: &Piece| match piece {
         Piece::Ball(ball) => {
             Ok(Piece::Ball(Ball { centre: ball.centre * factor, radius: ball.radius * factor }))
@@ -203,7 +203,7 @@ fn scaled(solid: &Solid, factor: f64, density: f64) -> Result<Solid, SolidTroubl
 }
 
 /// Diameter of the sphere of this `volume`.
-fn sphere_diameter(volume: f64) -> f64 {
+pub(crate) fn sphere_diameter(volume: f64) -> f64 {
     (6.0 * volume / std::f64::consts::PI).cbrt()
 }
 

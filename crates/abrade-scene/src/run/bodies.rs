@@ -8,6 +8,8 @@ use crate::carrier::BuiltCarrier;
 use crate::check::Checked;
 use crate::led_path::LedPath;
 use crate::run::engine::{Engine, Met, Sample, Stepped, Stretch};
+use crate::run::erosion::Erosion;
+use crate::run::streaming::Presences;
 use crate::run::touch::{Target, Touches, touch};
 use crate::scene::{Motion, Output};
 
@@ -33,6 +35,9 @@ pub(crate) struct Bodies {
     /// Bodies left to the engine near a surface, with the reason and how often.
     pub refused: Vec<(String, String, u64)>,
     surface_names: Vec<String>,
+    pub(super) presences: Presences,
+    pub erosion: Erosion,
+    struck: Struck,
 }
 
 /// One body.
@@ -40,6 +45,8 @@ pub(crate) struct Track {
     pub name: String,
     /// One of a stream: a picture has no room for its name.
     pub is_streamed: bool,
+    /// True from the first touch on.
+    has_struck: bool,
     pub inertia: Inertia,
     pub start: State,
     /// Distance of its farthest point from its centre of mass [m].
@@ -57,6 +64,24 @@ pub(crate) struct Track {
     pub slide: Option<Slide>,
     last_velocity: Vector3<f64>,
     top_speed: f64,
+}
+
+/// Bodies of streams that strike for the first time in the step under way.
+#[derive(Default)]
+struct Struck {
+    count: u64,
+    /// Their mass [kg].
+    mass: f64,
+}
+
+impl Struck {
+    /// Takes note that a body touches a surface.
+    fn add(&mut self, track: &mut Track) {
+        if track.is_streamed && !std::mem::replace(&mut track.has_struck, true) {
+            self.count += 1;
+            self.mass += track.inertia.mass;
+        }
+    }
 }
 
 /// The slide of a driven body.
@@ -114,6 +139,7 @@ impl Bodies {
             Track {
                 name: name.clone(),
                 is_streamed: checked.is_streamed(name),
+                has_struck: false,
                 inertia: body.inertia,
                 start: body.state,
                 reach: body.shape.bounding_radius(),
@@ -137,6 +163,9 @@ impl Bodies {
             touches: asks.then(|| Touches::new(built.bodies.len())),
             refused: Vec::new(),
             surface_names: built.surfaces.keys().cloned().collect(),
+            presences: Presences::new(checked, built),
+            erosion: Erosion::new(checked),
+            struck: Struck::default(),
         }
     }
 
@@ -169,6 +198,7 @@ impl Bodies {
         let track = &mut self.tracks[sample.body];
         if sample.force != Vector3::zeros() && track.approach.is_none() {
             track.approach = Some(track.last_velocity);
+            self.struck.add(track);
             track.landings = sample.surfaces.iter().map(landed).collect();
         }
         track.last_velocity = sample.state.velocity;
@@ -221,6 +251,7 @@ impl Bodies {
             self.impacts += 1;
             let Some(body) = ended.body else { continue };
             let track = &mut self.tracks[body];
+            self.struck.add(track);
             track.impulse += ended.impulse;
             track.contact_time += ended.contact_time;
         }
@@ -235,7 +266,12 @@ impl Bodies {
                 None => self.refused.push((what, why.clone(), 1)),
             }
         }
-        for (body, track) in self.tracks.iter_mut().enumerate() {
+        let Struck { count, mass } = std::mem::take(&mut self.struck);
+        if count > 0 {
+            self.erosion.strike(engine, self.frames.len(), count, mass);
+        }
+        for &body in &self.presences.live {
+            let track = &mut self.tracks[body];
             track.last_velocity = engine.state(body).velocity;
             track.top_speed = track.top_speed.max(track.last_velocity.norm());
         }
@@ -257,20 +293,25 @@ impl Bodies {
         self.carriers.iter().flatten().map(|body| body.kinetic_energy(&body.state)).sum()
     }
 
-    /// True when every free body moves away from every surface, or rests, at `time` [s].
+    /// True when no body is to come, and every free one moves away from every surface, or rests, at
+    /// `time` [s].
     pub(crate) fn all_away(&self, engine: &dyn Engine, time: f64) -> bool {
-        self.tracks.iter().enumerate().all(|(body, track)| match &track.slide {
+        let done = |&body: &usize| match &self.tracks[body].slide {
             Some(_) => engine.driven(body).is_some_and(abrade::Driven::is_done),
-            None if track.inertia.is_immovable() => true,
-            None => {
-                let state = engine.state(body);
-                let rests = state.velocity.norm() <= REST * track.top_speed;
-                let parted = !engine.in_contact(body);
-                (0..self.frames.len()).all(|surface| {
-                    let going = self.going(engine, surface, time);
-                    rests && !going.is_led() || parted && self.leaves(&going, &state, track.reach)
-                })
-            }
+            None if self.tracks[body].inertia.is_immovable() => true,
+            None => self.is_away(engine, body, time),
+        };
+        self.all_have_come() && self.presences.live.iter().all(done)
+    }
+
+    /// True when a body moves away from every surface, or rests, at `time` [s].
+    pub(super) fn is_away(&self, engine: &dyn Engine, body: usize, time: f64) -> bool {
+        let (track, state) = (&self.tracks[body], engine.state(body));
+        let rests = state.velocity.norm() <= REST * track.top_speed;
+        let parted = !engine.in_contact(body);
+        (0..self.frames.len()).all(|surface| {
+            let going = self.going(engine, surface, time);
+            rests && !going.is_led() || parted && self.leaves(&going, &state, track.reach)
         })
     }
 

@@ -15,7 +15,13 @@ pub(crate) trait Engine {
     /// Steps by at most `dt` [s], showing contact steps to `watch`.
     fn step(&mut self, dt: f64, watch: &mut dyn Watch) -> Result<Stepped, RunError>;
 
-    /// State of a body in the world.
+    /// Lets a body that has waited for its time come, as it starts.
+    fn bring(&mut self, body: usize) -> Result<(), RunError>;
+
+    /// Takes out a body that will meet nothing any more.
+    fn take_out(&mut self, body: usize);
+
+    /// State of a body in the world; of one that waits as it starts, of one that is gone as it left.
     fn state(&self, body: usize) -> State;
 
     /// A surface.

@@ -237,11 +237,11 @@ impl Recorder {
         }
         let mut ledger = self.closed;
         let mut rows = Vec::with_capacity(self.courses.len());
-        for course in &self.courses {
+        for (body, course) in self.courses.iter().enumerate() {
             let kept = course.at(at);
             ledger += kept.ledger;
             let mut state = kept.state;
-            if kept.force == Vector3::zeros() {
+            if kept.force == Vector3::zeros() && bodies.is_there(body) {
                 // Between contacts and after the last one it flies on.
                 state.position += state.velocity * (at - kept.time);
             }
@@ -356,7 +356,7 @@ impl Watch for Watcher<'_> {
     fn watches(&self) -> bool {
         self.recorder.history.is_some()
             || self.bodies.touches.is_some()
-            || self.bodies.tracks.iter().any(Track::learns)
+            || self.bodies.present().any(Track::learns)
     }
 
     fn sample(&mut self, sample: &Sample<'_>) {

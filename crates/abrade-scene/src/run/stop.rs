@@ -70,12 +70,14 @@ pub(crate) fn share(run: &Run, engine: &dyn Engine, bodies: &Bodies, time: f64) 
         Stop::Time { limit } => Some(time / limit),
         Stop::Impacts { count } if count > 0 => Some(bodies.impacts as f64 / count as f64),
         _ => {
-            let slides = (0..bodies.tracks.len()).filter_map(|body| {
+            let driven =
+                (0..bodies.tracks.len()).filter(|&body| bodies.tracks[body].slide.is_some());
+            let slides = driven.filter_map(|body| {
                 let driven = engine.driven(body)?;
                 let distance = driven.drive().distance;
                 (distance > 0.0).then(|| driven.travelled() / distance)
             });
-            slides.reduce(f64::min)
+            slides.reduce(f64::min).or(bodies.share_come())
         }
     }
 }

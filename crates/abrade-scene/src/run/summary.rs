@@ -57,6 +57,7 @@ pub(crate) fn summary(run: &Run<'_>) -> Summary {
         Some(failure) => format!("{}: {failure}", run.end.words()),
         None => run.end.words().to_owned(),
     };
+    let removed = (0..surfaces.len()).map(|i| run.engine.surface(i).worn().removed);
     Summary {
         scene: run.checked.scene.name.clone(),
         abrade: env!("CARGO_PKG_VERSION").to_owned(),
@@ -81,6 +82,7 @@ pub(crate) fn summary(run: &Run<'_>) -> Summary {
         surfaces,
         bodies,
         energy,
+        erosion: run.bodies.erosion.summary(removed),
         warnings: warnings(run),
         stop: Some(stop),
         laws: run.laws.clone(),

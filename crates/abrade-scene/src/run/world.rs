@@ -31,11 +31,29 @@ pub(crate) struct World {
     surface_names: Vec<String>,
     /// The bodies that moving surfaces are on.
     carriers: Vec<Option<RigidBodyHandle>>,
-    bodies: Vec<RigidBodyHandle>,
+    bodies: Vec<Presence>,
     body_names: Vec<String>,
     /// Only looked up, so its order reaches no number.
     indices: HashMap<RigidBodyHandle, usize>,
     driven: Vec<bool>,
+}
+
+/// Where a body is.
+enum Presence {
+    /// Its time has not come.
+    Waits(Box<Body>),
+    There(RigidBodyHandle),
+    /// It has left, in this state.
+    Gone(State),
+}
+
+impl Presence {
+    fn handle(&self) -> Option<RigidBodyHandle> {
+        match self {
+            Self::There(handle) => Some(*handle),
+            Self::Waits(_) | Self::Gone(_) => None,
+        }
+    }
 }
 
 /// What a scene asks of its world.
@@ -47,6 +65,8 @@ pub(crate) struct Wishes<'a> {
     pub until: Until,
     /// Drives by body name, with the index of the surface.
     pub drives: &'a BTreeMap<String, (usize, Drive)>,
+    /// When bodies of streams come, by name [s].
+    pub due: &'a BTreeMap<String, f64>,
 }
 
 impl World {
@@ -86,9 +106,15 @@ impl World {
             scene.add_surface(surface)?;
         }
         for (name, body) in built.bodies {
-            let drive = wishes.drives.get(&name);
+            let (drive, waits) = (wishes.drives.get(&name), wishes.due.contains_key(&name));
             scene.body_names.push(name);
-            scene.add_body(body, drive)?;
+            scene.driven.push(drive.is_some());
+            let index = scene.bodies.len();
+            scene.bodies.push(Presence::Gone(body.state));
+            match waits {
+                true => scene.bodies[index] = Presence::Waits(Box::new(body)),
+                false => scene.add_body(index, body, drive)?,
+            }
         }
         Ok(scene)
     }
@@ -124,7 +150,12 @@ impl World {
         Ok(())
     }
 
-    fn add_body(&mut self, body: Body, drive: Option<&(usize, Drive)>) -> Result<(), RunError> {
+    fn add_body(
+        &mut self,
+        index: usize,
+        body: Body,
+        drive: Option<&(usize, Drive)>,
+    ) -> Result<(), RunError> {
         let fixed = body.inertia.is_immovable();
         let builder = match drive {
             Some(_) => RigidBodyBuilder::kinematic_position_based(),
@@ -148,9 +179,8 @@ impl World {
             let collider = collider.density(density);
             self.world.colliders.insert_with_parent(collider, handle, &mut self.world.bodies);
         }
-        self.indices.insert(handle, self.bodies.len());
-        self.bodies.push(handle);
-        self.driven.push(drive.is_some());
+        self.indices.insert(handle, index);
+        self.bodies[index] = Presence::There(handle);
         let done = match drive {
             Some((surface, drive)) => {
                 let id = self.surfaces[*surface];
@@ -244,8 +274,25 @@ impl Engine for World {
         Ok(stepped)
     }
 
+    fn bring(&mut self, body: usize) -> Result<(), RunError> {
+        let Presence::Waits(waiting) = &self.bodies[body] else { return Ok(()) };
+        let waiting = (**waiting).clone();
+        self.add_body(body, waiting, None)
+    }
+
+    fn take_out(&mut self, body: usize) {
+        let Some(handle) = self.bodies[body].handle() else { return };
+        self.bodies[body] = Presence::Gone(self.state(body));
+        self.indices.remove(&handle);
+        self.world.remove_body(handle);
+    }
+
     fn state(&self, body: usize) -> State {
-        let handle = self.bodies[body];
+        let handle = match &self.bodies[body] {
+            Presence::Waits(body) => return body.state,
+            Presence::Gone(state) => return *state,
+            Presence::There(handle) => *handle,
+        };
         let state = match self.driven[body] {
             true => self.wear.driven_state(handle, &self.world.colliders),
             false => self.wear.state(handle, &self.world.bodies),
@@ -262,19 +309,20 @@ impl Engine for World {
     }
 
     fn in_contact(&self, body: usize) -> bool {
-        self.wear.in_contact(self.bodies[body])
+        self.bodies[body].handle().is_some_and(|handle| self.wear.in_contact(handle))
     }
 
     fn open_contact(&self, body: usize) -> Option<(Vector3<f64>, f64)> {
-        self.wear.open_contact(self.bodies[body])
+        self.wear.open_contact(self.bodies[body].handle()?)
     }
 
     fn has_ledger(&self, body: usize) -> bool {
-        self.driven[body] || self.wear.in_encounter(self.bodies[body])
+        let near = |handle| self.wear.in_encounter(handle);
+        self.driven[body] || self.bodies[body].handle().is_some_and(near)
     }
 
     fn driven(&self, body: usize) -> Option<&Driven> {
-        self.wear.driven(self.bodies[body])
+        self.wear.driven(self.bodies[body].handle()?)
     }
 
     fn ledger(&self) -> Ledger {

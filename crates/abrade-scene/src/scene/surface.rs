@@ -33,6 +33,11 @@ pub struct SceneSurface {
     /// Which part of the displaced volume leaves as debris (default `All`).
     #[serde(default)]
     pub removal: Removal,
+    /// Density of what is worn off [kg/m3], for erosion in kg per kg of a stream (default: that of a
+    /// free surface, else none).
+    #[serde(default, deserialize_with = "quantity::optional_density")]
+    #[schemars(with = "Option<Quantity>")]
+    pub density: Option<f64>,
     /// Coefficient of restitution of an impact below yield [-], from 0.01 to 1; what a body needs
     /// to come to rest (default 1: no damping).
     #[serde(default = "undamped")]
