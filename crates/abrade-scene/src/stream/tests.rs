@@ -1,3 +1,5 @@
+//! Streams: when bodies come, where, how large, and that seeds mean the same everywhere.
+
 use super::*;
 use crate::scene::{ShapeShare, Sizes};
 
