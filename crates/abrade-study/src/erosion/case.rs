@@ -154,7 +154,7 @@ impl Range<'_> {
             let to = (from + samples.least).min(samples.most);
             let landed = self.land_some(from..to, &self.plate)?;
             impacts.extend(landed.into_iter().map(|landed| told(landed.outcome).0));
-            if !progress.advance(contact_time(&impacts), share(self.file, &impacts)) {
+            if !progress.advance(contact_time(&impacts), Some(share(self.file, &impacts))) {
                 return Ok(None);
             }
         }
@@ -173,7 +173,7 @@ impl Range<'_> {
             while (impacts.len() as u32) < end {
                 self.some_more(end, &mut plate, &mut impacts)?;
             }
-            if !progress.advance(contact_time(&impacts), share(self.file, &impacts)) {
+            if !progress.advance(contact_time(&impacts), Some(share(self.file, &impacts))) {
                 return Ok(None);
             }
         }
@@ -268,9 +268,11 @@ pub enum CaseError {
 pub(crate) fn wear_per_mass<'a>(impacts: impl IntoIterator<Item = &'a Impact>) -> Estimate {
     let rows: Vec<[f64; 2]> =
         impacts.into_iter().map(|impact| [impact.wear_volume_m3, impact.mass_kg]).collect();
-    statistics::estimate(&rows, |sums| sums[0] / sums[1])
+    statistics::estimate(&rows, rows.len(), |sums| sums[0] / sums[1])
 }
 
+/// True while the interval is too wide. A case whose first impacts all have no result is given up: its
+/// value is not a number, and no interval of it is wide.
 fn wants_more(file: &StudyFile, impacts: &Impacts) -> bool {
     let samples = &file.samples;
     let count = impacts.len() as u32;
@@ -279,12 +281,12 @@ fn wants_more(file: &StudyFile, impacts: &Impacts) -> bool {
 }
 
 /// How much of a case is done, as far as one can tell from how its interval narrows.
-fn share(file: &StudyFile, impacts: &Impacts) -> Option<f64> {
+fn share(file: &StudyFile, impacts: &Impacts) -> f64 {
     let samples = &file.samples;
     let wide = wear_per_mass(impacts.iter().flatten()).relative() / samples.interval;
     let count = impacts.len() as f64;
-    let needed = (count * wide * wide).clamp(f64::from(samples.least), f64::from(samples.most));
-    Some((count / needed).min(1.0))
+    let needed = (count * wide * wide).max(f64::from(samples.least)).min(f64::from(samples.most));
+    (count / needed).min(1.0)
 }
 
 fn contact_time(impacts: &Impacts) -> f64 {

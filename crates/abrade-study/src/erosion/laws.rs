@@ -10,20 +10,19 @@ const TINY: f64 = 1e-12;
 
 /// A law at the conditions of a study.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Prediction {
+pub(crate) struct Prediction {
     /// The law.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// What it was given beside speed and angle.
-    pub given: String,
+    pub(crate) given: String,
     /// Volume per mass of grains at each angle of the study [mm3/kg].
-    pub volumes: Vec<f64>,
+    pub(crate) volumes: Vec<f64>,
 }
 
 /// Each law at the angles of the study and this `speed` [m/s]; those that tell ratios of masses where the
 /// study tells the target's density.
 pub(crate) fn predictions(file: &StudyFile, speed: f64) -> Vec<Prediction> {
-    let angles: Vec<f64> = file.angles.clone();
-    predictions_at(file, speed, &angles)
+    predictions_at(file, speed, &file.angles)
 }
 
 /// [`predictions`] at any angles [rad].

@@ -7,7 +7,7 @@ use super::charts::Drawn;
 use super::laws::{self, Prediction};
 use super::statistics::Estimate;
 use super::summary::{CaseResult, Erosion};
-use super::table::told;
+use super::table::{fixed, percent, told};
 
 impl Erosion {
     /// The page, with these pictures.
@@ -49,8 +49,12 @@ impl Erosion {
 
     /// The grain of this `name`, in a sentence.
     fn answer(&self, name: &str) -> Option<String> {
-        let cases: Vec<&CaseResult> = self.of_grain(name, self.file.speeds[0]).collect();
-        let (first, last) = (cases.first()?, cases.last()?);
+        let all = self.of_grain(name, self.file.speeds[0]);
+        let (cases, without): (Vec<&CaseResult>, Vec<&CaseResult>) =
+            all.partition(|result| result.impacts > 0);
+        let (Some(first), Some(last)) = (cases.first(), cases.last()) else {
+            return (!without.is_empty()).then(|| format!("{name}: no impact has a result."));
+        };
         let degrees = |result: &CaseResult| digits(result.case.angle.to_degrees());
         let debris = |result: &CaseResult| result.quantity("removed_mm3_per_kg");
         let most = cases.iter().max_by(|a, b| debris(a).value.total_cmp(&debris(b).value))?;
@@ -249,7 +253,6 @@ impl Erosion {
 
 fn row(result: &CaseResult) -> Vec<String> {
     let value = |name: &str| result.quantity(name).value;
-    let share = |name: &str| format!("{:.0} %", 100.0 * value(name));
     let ratio = |ratio: Option<Estimate>| ratio.map_or("-".into(), |r| sign(&r));
     vec![
         format!("{}, {} deg", result.case.grain, digits(result.case.angle.to_degrees())),
@@ -258,14 +261,14 @@ fn row(result: &CaseResult) -> Vec<String> {
         ratio(result.wear_ratio),
         sign(&result.quantity("removed_mm3_per_kg")),
         ratio(result.removed_ratio),
-        format!("{:.3}", value("wear_energy_share")),
-        digits(1e6 * value("depth_m")),
-        format!("{:.3}", value("restitution")),
-        format!("{:.3}", value("restitution_normal")),
-        format!("{:.3}", value("restitution_tangential")),
-        share("forward_share"),
-        share("backward_share"),
-        format!("{:.1} %", 100.0 * value("chip_share")),
+        fixed(value("wear_energy_share"), 3),
+        fixed(1e6 * value("depth_m"), 2),
+        fixed(value("restitution"), 3),
+        fixed(value("restitution_normal"), 3),
+        fixed(value("restitution_tangential"), 3),
+        percent(value("forward_share"), 0),
+        percent(value("backward_share"), 0),
+        percent(value("chip_share"), 1),
     ]
 }
 

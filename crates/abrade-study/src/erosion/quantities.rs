@@ -5,9 +5,9 @@ use super::impact::Impact;
 use super::statistics::{self, Estimate};
 
 /// A quantity of a case: the sum over all impacts of the one over that of the other.
-pub struct Quantity {
+pub(crate) struct Quantity {
     /// Name of its column, with the unit.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     above: Term,
     below: fn(&Impact) -> f64,
 }
@@ -33,22 +33,24 @@ impl Term {
 
 impl Quantity {
     /// Its estimate from `impacts`.
-    pub fn of(&self, impacts: &[Impact]) -> Estimate {
+    pub(crate) fn of(&self, impacts: &[Impact]) -> Estimate {
         let rows: Vec<[f64; 2]> =
             impacts.iter().map(|impact| [self.above.of(impact), (self.below)(impact)]).collect();
-        statistics::estimate(&rows, |sums| sums[0] / sums[1])
+        statistics::estimate(&rows, rows.len(), |sums| sums[0] / sums[1])
     }
 
     /// Its value for `case` over that for `other`, both made with the same samples, as far as they go.
-    pub fn ratio(&self, case: &Made, other: &Made) -> Estimate {
-        let rows = self.rows(&[case, other]);
-        statistics::estimate(&rows, |sums| sums[0] / sums[1] / (sums[2] / sums[3]))
+    pub(crate) fn ratio(&self, case: &Made, other: &Made) -> Estimate {
+        let cases = [case, other];
+        statistics::estimate(&self.rows(&cases), fewest(&cases), |sums| {
+            sums[0] / sums[1] / (sums[2] / sums[3])
+        })
     }
 
     /// The exponent of speed to which it goes, by least squares of the logarithms over `cases` at these
     /// `speeds` [m/s], made with the same samples.
-    pub fn exponent(&self, speeds: &[f64], cases: &[&Made]) -> Estimate {
-        statistics::estimate(&self.rows(cases), |sums| {
+    pub(crate) fn exponent(&self, speeds: &[f64], cases: &[&Made]) -> Estimate {
+        statistics::estimate(&self.rows(cases), fewest(cases), |sums| {
             let values = sums.chunks(2).map(|pair| (pair[0] / pair[1]).ln());
             let points = speeds.iter().map(|v| v.ln()).zip(values).map(<[f64; 2]>::from);
             slope(&points.collect::<Vec<_>>())
@@ -67,6 +69,11 @@ impl Quantity {
     }
 }
 
+/// Samples with a result, of the case that has the fewest.
+fn fewest(cases: &[&Made]) -> usize {
+    cases.iter().map(|made| made.impacts.iter().flatten().count()).min().unwrap_or(0)
+}
+
 /// Slope of the line through `points` by least squares.
 fn slope(points: &[[f64; 2]]) -> f64 {
     let mean = |a: usize| points.iter().map(|p| p[a]).sum::<f64>() / points.len() as f64;
@@ -81,10 +88,10 @@ const MM3: f64 = 1e9;
 const STILL: f64 = 0.02;
 
 /// Displaced volume per mass of grains.
-pub const WEAR: Quantity = per_mass("wear_mm3_per_kg", |i| i.wear_volume_m3 * MM3);
+pub(crate) const WEAR: Quantity = per_mass("wear_mm3_per_kg", |i| i.wear_volume_m3 * MM3);
 
 /// Debris per mass of grains.
-pub const REMOVED: Quantity = per_mass("removed_mm3_per_kg", |i| i.removed_volume_m3 * MM3);
+pub(crate) const REMOVED: Quantity = per_mass("removed_mm3_per_kg", |i| i.removed_volume_m3 * MM3);
 
 /// Debris per mass of grains, were it what faces cut at angles of attack from a multiple `bin` of
 /// [`ATTACK_BIN`](abrade::ATTACK_BIN) on.
@@ -94,7 +101,7 @@ pub(crate) fn cut_from(bin: usize) -> Quantity {
 }
 
 /// All of them.
-pub const ALL: [Quantity; 20] = [
+pub(crate) const ALL: [Quantity; 20] = [
     WEAR,
     REMOVED,
     per_impact("wear_volume_m3", |i| i.wear_volume_m3),
@@ -182,7 +189,8 @@ mod tests {
         assert!((same.value - 3.0).abs() < 1e-12 && same.half_width < 1e-12, "{same:?}");
         let more = WEAR.ratio(&long, &short);
         // Standard deviation over mean is 0.2; what 300 further samples do not share is left.
-        let rest = 3.0 * 1.96 * 0.2 * (1.0_f64 / 100.0 - 1.0 / 400.0).sqrt();
+        // Student's factor is that of the 100.
+        let rest = 3.0 * 1.984 * 0.2 * (1.0_f64 / 100.0 - 1.0 / 400.0).sqrt();
         assert!((more.value - 3.0).abs() < 1e-12, "{more:?}");
         assert!((more.half_width / rest - 1.0).abs() < 0.02, "{more:?} {rest}");
     }

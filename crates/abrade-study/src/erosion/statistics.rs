@@ -1,11 +1,9 @@
 //! Estimates from samples, with the half widths of their 95 % intervals.
 
-use serde::Serialize;
-
 /// An estimate.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// Its value.
+    /// Its value; not a number where there are no samples that tell it.
     pub value: f64,
     /// Half width of its 95 % interval; infinite where there are too few samples for one.
     pub half_width: f64,
@@ -20,9 +18,17 @@ impl Estimate {
 
 /// An estimate that is a function `f` of the sums over all samples of what each row holds, by the
 /// jackknife: its spread is that of the values without one sample each (B. Efron & C. Stein, Ann. Stat. 9
-/// (1981) 586). For a mean that is the usual interval, with Student's factor.
-pub fn estimate<R: AsRef<[f64]>>(rows: &[R], f: impl Fn(&[f64]) -> f64) -> Estimate {
-    let mut sums = vec![0.0; rows.first().map_or(0, |row| row.as_ref().len())];
+/// (1981) 586). For a mean that is the usual interval, with Student's factor for `samples` of them: the fewest
+/// that any of the sums is over.
+pub(crate) fn estimate<R: AsRef<[f64]>>(
+    rows: &[R],
+    samples: usize,
+    f: impl Fn(&[f64]) -> f64,
+) -> Estimate {
+    let Some(first) = rows.first() else {
+        return Estimate { value: f64::NAN, half_width: f64::INFINITY };
+    };
+    let mut sums = vec![0.0; first.as_ref().len()];
     for row in rows {
         for (sum, x) in sums.iter_mut().zip(row.as_ref()) {
             *sum += x;
@@ -30,7 +36,7 @@ pub fn estimate<R: AsRef<[f64]>>(rows: &[R], f: impl Fn(&[f64]) -> f64) -> Estim
     }
     let value = f(&sums);
     let count = rows.len() as f64;
-    if rows.len() < 2 {
+    if samples < 2 {
         return Estimate { value, half_width: f64::INFINITY };
     }
     let mut rest = sums.clone();
@@ -44,14 +50,13 @@ pub fn estimate<R: AsRef<[f64]>>(rows: &[R], f: impl Fn(&[f64]) -> f64) -> Estim
         first += difference;
         second += difference * difference;
     }
-    let spread = (second - first * first / count).max(0.0) * (count - 1.0) / count;
-    Estimate { value, half_width: student(rows.len() - 1) * spread.sqrt() }
-}
-
-/// The mean of `values`.
-pub fn mean(values: impl Iterator<Item = f64>) -> Estimate {
-    let rows: Vec<[f64; 2]> = values.map(|value| [value, 1.0]).collect();
-    estimate(&rows, |sums| sums[0] / sums[1])
+    let spread = (second - first * first / count) * (count - 1.0) / count;
+    // Not a number where the value is none, or is none without one of the samples.
+    let half_width = match spread.is_nan() {
+        true => f64::INFINITY,
+        false => student(samples - 1) * spread.max(0.0).sqrt(),
+    };
+    Estimate { value, half_width }
 }
 
 /// Half width of the 95 % interval over the standard error, by the expansion of Student's distribution in
@@ -88,10 +93,24 @@ mod tests {
     /// Fails for a mean whose interval is not the usual one.
     #[test]
     fn a_mean_has_its_usual_interval() {
-        let Estimate { value, half_width } = mean([1.0, 2.0, 4.0, 9.0, 4.0].into_iter());
+        let rows = [1.0, 2.0, 4.0, 9.0, 4.0].map(|value| [value, 1.0]);
+        let Estimate { value, half_width } = estimate(&rows, 5, |sums| sums[0] / sums[1]);
         assert_eq!(value, 4.0);
         // Variance 9.5, five values.
         assert!((half_width / (2.776 * (9.5_f64 / 5.0).sqrt()) - 1.0).abs() < 5e-3, "{half_width}");
+    }
+
+    /// Fails for a value out of nothing, and for an interval of no width where one sample alone has a term that
+    /// the value divides by.
+    #[test]
+    fn what_no_samples_tell_has_no_interval() {
+        let none: [[f64; 2]; 0] = [];
+        let nothing = estimate(&none, 0, |sums| sums[0] / sums[1]);
+        assert!(nothing.value.is_nan() && nothing.half_width == f64::INFINITY, "{nothing:?}");
+        for rows in [[[1.0, 2.0], [0.0, 0.0]], [[0.0, 0.0], [0.0, 0.0]]] {
+            let few = estimate(&rows, 2, |sums| sums[0] / sums[1]);
+            assert_eq!(few.half_width, f64::INFINITY, "{few:?}");
+        }
     }
 
     /// Fails for an interval of a ratio that forgets that its parts are of the same samples, or that is
@@ -108,7 +127,7 @@ mod tests {
                     [2.0 * (a + 0.1 * b), a + 0.1]
                 })
                 .collect();
-            let Estimate { value, half_width } = estimate(&rows, |sums| sums[0] / sums[1]);
+            let Estimate { value, half_width } = estimate(&rows, 64, |sums| sums[0] / sums[1]);
             held += usize::from((value - 1.1 / 0.6).abs() <= half_width);
         }
         let share = held as f64 / f64::from(trials);

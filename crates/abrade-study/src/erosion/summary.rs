@@ -38,8 +38,8 @@ pub struct CaseResult {
     pub missed: Option<(usize, String)>,
     /// Pitch of its plate [m].
     pub pitch: f64,
-    /// One estimate per quantity of [`ALL`].
-    pub quantities: Vec<Estimate>,
+    /// One estimate per quantity, in the order of the columns of `cases.csv`; see [`CaseResult::quantity`].
+    pub(crate) quantities: Vec<Estimate>,
     /// Displaced volume per mass over that of the reference; None where that is missing.
     pub wear_ratio: Option<Estimate>,
     /// Debris per mass over that of the reference; None where that is missing or leaves none.
@@ -78,7 +78,8 @@ impl Erosion {
                 // Debris of a sphere at right angles is a node or none: nothing to divide by.
                 let has_some =
                     quantity.of(&hits[other]).value > LEAST * WEAR.of(&hits[other]).value;
-                has_some.then(|| quantity.ratio(case_made, &made[other].1))
+                let ratio = has_some.then(|| quantity.ratio(case_made, &made[other].1))?;
+                ratio.value.is_finite().then_some(ratio)
             };
             let misses: Vec<&String> =
                 case_made.impacts.iter().filter_map(|impact| impact.as_ref().err()).collect();
@@ -101,7 +102,9 @@ impl Erosion {
                 if at.len() > 1 && at.len() == file.speeds.len() {
                     let cases: Vec<&Made> = at.iter().map(|&at| &made[at].1).collect();
                     let wear = WEAR.exponent(&file.speeds, &cases);
-                    exponents.push(Exponent { grain: grain.clone(), angle, wear });
+                    if wear.value.is_finite() {
+                        exponents.push(Exponent { grain: grain.clone(), angle, wear });
+                    }
                 }
             }
         }

@@ -138,7 +138,7 @@ impl Erosion {
 
 fn line(result: &CaseResult) -> String {
     let value = |name: &str| result.quantity(name).value;
-    let ratio = |ratio: &Option<Estimate>| ratio.as_ref().map_or("-".to_owned(), told);
+    let ratio = |ratio: &Option<Estimate>| ratio.as_ref().map_or(NONE.to_owned(), told);
     let cells = [
         digits(result.case.angle.to_degrees()),
         result.impacts.to_string(),
@@ -146,10 +146,10 @@ fn line(result: &CaseResult) -> String {
         ratio(&result.wear_ratio),
         told(&result.quantity("removed_mm3_per_kg")),
         ratio(&result.removed_ratio),
-        format!("{:.3}", value("wear_energy_share")),
-        format!("{:.2}", 1e6 * value("depth_m")),
-        format!("{:.3}", value("restitution")),
-        format!("{:.0} %", 100.0 * value("forward_share")),
+        fixed(value("wear_energy_share"), 3),
+        fixed(1e6 * value("depth_m"), 2),
+        fixed(value("restitution"), 3),
+        percent(value("forward_share"), 0),
     ];
     let mut line = String::new();
     for (cell, (_, width)) in cells.iter().zip(HEAD) {
@@ -161,9 +161,25 @@ fn line(result: &CaseResult) -> String {
     }
 }
 
+/// `value` with this many decimal `places`, if there is one.
+pub(crate) fn fixed(value: f64, places: usize) -> String {
+    if value.is_finite() { format!("{value:.places$}") } else { NONE.to_owned() }
+}
+
+/// The share `value` in percent.
+pub(crate) fn percent(value: f64, places: usize) -> String {
+    format!("{} %", fixed(100.0 * value, places))
+}
+
+/// What stands where there is no value.
+const NONE: &str = "-";
+
 /// Value +- half width, to the digits that the half width leaves.
 pub(crate) fn told(estimate: &Estimate) -> String {
     let Estimate { value, half_width } = *estimate;
+    if !value.is_finite() {
+        return NONE.to_owned();
+    }
     if !half_width.is_finite() {
         return digits(value);
     }

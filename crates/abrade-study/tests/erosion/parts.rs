@@ -147,3 +147,31 @@ fn faults_are_told_at_their_places_all_at_once() {
         erosion::load(&path, &["samples.moste=3".into()]).expect_err("a word").to_string();
     assert!(unknown.contains("moste") && unknown.contains("most"), "{unknown}");
 }
+
+/// Fails for a case without a single result that ends the study, that is tried over and over, or that is told
+/// as a number: at this speed every grain goes in as a whole.
+#[test]
+fn a_case_without_a_result_is_told_as_one() {
+    let speeds = "speeds: [2000.0]";
+    let file = study(&text(GRAINS, "\"90 deg\"", 6).replace("speeds: [98.1]", speeds));
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut wide = file.clone();
+    wide.samples.most = 600;
+    for file in [&file, &wide] {
+        let out = folder.path().join(file.samples.most.to_string());
+        make(file, &file.cases(), &out);
+        let result = erosion::result(file, Path::new(""), &out).expect("a result");
+        for case in &result.cases {
+            assert_eq!((case.impacts, case.missed.as_ref().map(|(count, _)| *count)), (0, Some(6)));
+            assert_eq!(case.wear_ratio, None);
+        }
+        let table = result.table();
+        assert!(table.contains("6 without a result") && !table.contains("NaN"), "{table}");
+        erosion::write(&result, Path::new(""), &out).expect("files");
+        let page = std::fs::read_to_string(out.join("report.html")).expect("a page");
+        assert!(page.contains("sphere: no impact has a result."));
+        assert!(page.contains("<td>-</td>") && !page.contains("NaN<") && !page.contains("NaN "));
+        let csv = std::fs::read_to_string(out.join("cases.csv")).expect("a table");
+        assert!(!csv.contains("NaN") && !csv.contains("inf"), "{csv}");
+    }
+}
