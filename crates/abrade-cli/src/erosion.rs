@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use abrade_study::erosion::{self, Case, StudyFile};
+use abrade_study::erosion::{self, Case, StudyFile, Unmade};
 use anyhow::Context;
 
 use crate::arguments::ErosionArguments;
@@ -23,8 +23,8 @@ pub(crate) struct Opened {
 /// Makes all cases that are not there, writes the tables, says what came of it.
 pub(crate) fn erosion(arguments: &ErosionArguments) -> Result<(), Failure> {
     let opened = open(arguments)?;
-    opened.make(&opened.file.cases())?;
-    opened.tell()
+    let unmade = opened.make(&opened.file.cases())?;
+    opened.tell(&unmade)
 }
 
 /// Reads and checks the study.
@@ -40,21 +40,18 @@ pub(crate) fn open(arguments: &ErosionArguments) -> Result<Opened, Failure> {
 }
 
 impl Opened {
-    /// Makes those of `cases` that are not there.
-    pub(crate) fn make(&self, cases: &[Case]) -> Result<(), Failure> {
+    /// Makes those of `cases` that are not there; returns those that cannot be made.
+    pub(crate) fn make(&self, cases: &[Case]) -> Result<Vec<Unmade>, Failure> {
         output_folder::make(&self.out)?;
         let stop = interrupt::flag();
         let mut bar = Bar::new(&stop);
         let made = erosion::make(&self.file, &self.beside, cases, &self.out, &mut bar);
         bar.clear();
-        match made.map_err(failure)? {
-            true => Ok(()),
-            false => Err(Failure::Interrupted),
-        }
+        made.map_err(failure)
     }
 
-    /// Writes the tables of the cases that are there, and shows them.
-    pub(crate) fn tell(&self) -> Result<(), Failure> {
+    /// Writes the tables of the cases that are there, and shows them; says why the `unmade` are missing.
+    pub(crate) fn tell(&self, unmade: &[Unmade]) -> Result<(), Failure> {
         let result = erosion::result(&self.file, &self.beside, &self.out).map_err(failure)?;
         output_folder::make(&self.out)?;
         erosion::write(&result, &self.beside, &self.out).map_err(failure)?;
@@ -65,11 +62,14 @@ impl Opened {
         ))?;
         match result.missing() {
             0 => Ok(()),
-            missing => {
-                let all = self.file.cases().len();
-                let error = anyhow::anyhow!("{missing} of {all} cases are missing");
-                Err(Failure::Run(error))
-            }
+            missing => Err(self.lacks(missing, unmade)),
         }
+    }
+
+    /// That `missing` cases are, and why the `unmade` are.
+    pub(crate) fn lacks(&self, missing: usize, unmade: &[Unmade]) -> Failure {
+        let why: String = unmade.iter().map(|unmade| format!("\n  {unmade}")).collect();
+        let all = self.file.cases().len();
+        Failure::Run(anyhow::anyhow!("{missing} of {all} cases are missing{why}"))
     }
 }

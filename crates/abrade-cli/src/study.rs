@@ -54,7 +54,7 @@ pub(crate) fn failure(error: StudyError) -> Failure {
     match error {
         StudyError::Scene(error) => error.into(),
         StudyError::Interrupted => Failure::Interrupted,
-        StudyError::Reference { .. } | StudyError::Case(_) | StudyError::NoCases { .. } => {
+        StudyError::Reference { .. } | StudyError::Grain { .. } | StudyError::NoCases { .. } => {
             Failure::Input(error.into())
         }
         StudyError::Run(_) | StudyError::Report(_) | StudyError::Nothing { .. } => {

@@ -21,7 +21,7 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
         for folder in folders {
             erosion::gather(&opened.file, &opened.beside, folder, &opened.out).map_err(failure)?;
         }
-        return opened.tell();
+        return opened.tell(&[]);
     }
     let mut cases = opened.file.cases();
     let all = cases.len();
@@ -35,10 +35,14 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     if let Some([first, pace]) = arguments.shard {
         cases.retain(|case| case.number % pace == first);
     }
-    opened.make(&cases)?;
+    let unmade = opened.make(&cases)?;
     let there = opened.file.cases().iter().filter(|case| opened.has(case)).count();
     let place = opened.out.display();
-    say::say(&format!("{there} of {all} cases are in {place}\n"))
+    say::say(&format!("{there} of {all} cases are in {place}\n"))?;
+    match unmade.is_empty() {
+        true => Ok(()),
+        false => Err(opened.lacks(all - there, &unmade)),
+    }
 }
 
 fn list(opened: &Opened) -> Result<(), Failure> {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use abrade_report::ReportError;
-use abrade_scene::{RunError, SceneError};
+use abrade_scene::{GrainError, RunError, SceneError};
 use thiserror::Error;
 
 /// A study that cannot be made.
@@ -15,9 +15,14 @@ pub enum StudyError {
     /// A run could not be made at all.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// A case of an erosion study could not be made.
-    #[error(transparent)]
-    Case(#[from] crate::erosion::CaseError),
+    /// A grain of an erosion study cannot be made.
+    #[error("the grain `{name}`: {source}")]
+    Grain {
+        /// Its name.
+        name: String,
+        /// Why not.
+        source: GrainError,
+    },
     /// A folder that is to be merged has nothing of the study.
     #[error("`{}` holds no case of this study, as it stands", folder.display())]
     NoCases {
@@ -41,7 +46,7 @@ pub enum StudyError {
         /// Why the first one did not.
         reason: String,
     },
-    /// The user broke the study off before there was anything to compare.
+    /// The user broke the study off, one of convergence before there was anything to compare.
     #[error("interrupted")]
     Interrupted,
 }

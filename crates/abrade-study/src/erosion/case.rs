@@ -4,7 +4,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use abrade::{Changes, HexStrip, Surface, SurfaceError, SurfaceLaws};
+use abrade::{Changes, HexStrip, Surface, SurfaceError};
+use abrade_report::quantity_text::digits;
 use abrade_scene::scene::Form;
 use abrade_scene::{GrainError, GrainSize, MadeGrain, Progress};
 use nalgebra::Point3;
@@ -34,6 +35,16 @@ pub struct Case {
     pub speed: f64,
     /// Angle from the surface [rad].
     pub angle: f64,
+}
+
+/// A case that could not be made, and why.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("case {}, {} at {} m/s and {} deg: {error}", .case.number, .case.grain, digits(.case.speed), digits(.case.angle.to_degrees()))]
+pub struct Unmade {
+    /// The case.
+    pub case: Case,
+    /// Why not.
+    pub error: CaseError,
 }
 
 /// A case that was made.
@@ -309,14 +320,7 @@ impl StudyFile {
         };
         let edge = spread + 2.0 * REACH * largest;
         let strip = HexStrip { length: edge, width: edge, pitch, rest_area: None };
-        let target = &self.target;
-        let laws = SurfaceLaws {
-            elastic: target.elastic.clone(),
-            flow: target.flow.clone(),
-            removal: target.removal.clone(),
-            ..SurfaceLaws::of(target.material.clone())
-        };
-        Surface::hex_strip(strip, laws)
+        Surface::hex_strip(strip, self.target.laws())
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use abrade::{ParameterError, SurfaceLaws};
+use abrade::{ParameterError, SurfaceError};
 use abrade_scene::scene::Form;
 use abrade_scene::{Document, FileKind, SceneError, folder_name_fault};
 
@@ -35,18 +35,15 @@ fn check_target(document: &mut Document<StudyFile>) {
     if let Some(error) = target.density.and_then(|rho| ParameterError::positive("density", rho)) {
         document.out_of_range(&["target"], &error);
     }
+    for error in target.elastic.check() {
+        document.out_of_range(&["target", "elastic"], &error);
+    }
     for error in target.removal.check() {
         document.out_of_range(&["target", "removal"], &error);
     }
-    let laws = SurfaceLaws {
-        elastic: target.elastic,
-        flow: target.flow,
-        removal: target.removal,
-        ..SurfaceLaws::of(target.material)
-    };
     // What is out of range was noted above, and has a place of its own.
-    let missing =
-        laws.check().into_iter().find(|error| !matches!(error, abrade::SurfaceError::Parameter(_)));
+    let errors = target.laws().check();
+    let missing = errors.into_iter().find(|error| !matches!(error, SurfaceError::Parameter(_)));
     if let Some(error) = missing {
         document.refuse(&["target"], error.to_string(), "");
     }

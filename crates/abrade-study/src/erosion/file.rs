@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use abrade::quantity::{self, Quantity};
-use abrade::{ElasticLaw, FlowLaw, Material, Removal};
+use abrade::{ElasticLaw, FlowLaw, Material, Removal, SurfaceLaws};
 use abrade_scene::scene::Grain;
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer};
@@ -151,6 +151,18 @@ impl Default for Samples {
     fn default() -> Self {
         let sequence = Sequence::default();
         Self { least: 64, most: 1024, interval: 0.05, sequence, seed: 0 }
+    }
+}
+
+impl Target {
+    /// The laws of the plate.
+    pub(crate) fn laws(&self) -> SurfaceLaws {
+        SurfaceLaws {
+            elastic: self.elastic.clone(),
+            flow: self.flow.clone(),
+            removal: self.removal.clone(),
+            ..SurfaceLaws::of(self.material.clone())
+        }
     }
 }
 

@@ -27,7 +27,7 @@ use std::path::Path;
 use abrade_report::atomic;
 use abrade_scene::Progress;
 
-pub use case::{Case, CaseError, Made};
+pub use case::{Case, CaseError, Made, Unmade};
 pub use check::load;
 pub use descriptors::Descriptors;
 pub use file::{Plate, Samples, Sequence, Size, StudyFile, Target, VERSION};
@@ -41,29 +41,31 @@ use crate::error::StudyError;
 use store::Store;
 
 /// Makes those of `cases` that are not in the results folder `out` yet; files that the study names lie
-/// `beside` it. Returns false where the user broke it off.
+/// `beside` it. Returns those that cannot be made; they leave the others alone.
 ///
 /// # Errors
-/// A grain or a plate cannot be made, or a file cannot be written.
+/// The user broke it off, or a file cannot be written.
 pub fn make(
     file: &StudyFile,
     beside: &Path,
     cases: &[Case],
     out: &Path,
     progress: &mut dyn Progress,
-) -> Result<bool, StudyError> {
+) -> Result<Vec<Unmade>, StudyError> {
     let store = Store::new(file, beside, out);
+    let mut unmade = Vec::new();
     for (at, case) in cases.iter().enumerate() {
         if store.read(case).is_some() {
             continue;
         }
         let mut part = Part { whole: progress, at, of: cases.len() };
-        match case.make(file, beside, &mut part)? {
-            Some(made) => store.write(case, &made)?,
-            None => return Ok(false),
+        match case.make(file, beside, &mut part) {
+            Ok(Some(made)) => store.write(case, &made)?,
+            Ok(None) => return Err(StudyError::Interrupted),
+            Err(error) => unmade.push(Unmade { case: case.clone(), error }),
         }
     }
-    Ok(true)
+    Ok(unmade)
 }
 
 /// The JSON schema of a study's file.
@@ -98,15 +100,17 @@ pub fn gather(file: &StudyFile, beside: &Path, from: &Path, out: &Path) -> Resul
 /// What the cases in the results folder `out` come to.
 ///
 /// # Errors
-/// A grain cannot be made.
+/// A grain that has a case cannot be made.
 pub fn result(file: &StudyFile, beside: &Path, out: &Path) -> Result<Erosion, StudyError> {
     let store = Store::new(file, beside, out);
     let made =
         file.cases().into_iter().filter_map(|case| store.read(&case).map(|made| (case, made)));
     let made: Vec<(Case, Made)> = made.collect();
     let mut grains = Vec::new();
-    for name in file.grains.keys() {
-        let descriptors = descriptors::describe(file, name, beside).map_err(CaseError::from)?;
+    let is_there = |name: &&String| made.iter().any(|(case, _)| case.grain == **name);
+    for name in file.grains.keys().filter(is_there) {
+        let descriptors = descriptors::describe(file, name, beside)
+            .map_err(|source| StudyError::Grain { name: name.clone(), source })?;
         grains.push((name.clone(), descriptors));
     }
     Ok(Erosion::of(file, &made, grains))

@@ -19,7 +19,7 @@ pub struct Erosion {
     pub file: StudyFile,
     /// Its cases, in the order of their numbers; those that were made.
     pub cases: Vec<CaseResult>,
-    /// The shapes of the grains, by name, in the order of the study.
+    /// The shapes of the grains that have a case, by name, in the order of the study.
     pub grains: Vec<(String, Descriptors)>,
     /// How wear goes with speed, per grain and angle; empty of studies at one speed.
     pub exponents: Vec<Exponent>,

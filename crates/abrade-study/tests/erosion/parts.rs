@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use abrade_scene::Progress;
+use abrade_study::StudyError;
 use abrade_study::erosion::{self, Case, StudyFile};
 
 use crate::{make, study, text};
@@ -81,7 +82,8 @@ fn a_study_goes_on_where_it_was_broken_off() {
     let path = out.join("cases/0001.jsonl");
     let (text_before, made) = (std::fs::read(&path).expect("a case"), std::fs::metadata(&path));
     let written = made.expect("a case").modified().expect("a time");
-    assert!(!erosion::make(&file, Path::new(""), &cases, out, &mut Stop).expect("an interrupt"));
+    let stopped = erosion::make(&file, Path::new(""), &cases, out, &mut Stop);
+    assert!(matches!(stopped, Err(StudyError::Interrupted)), "{stopped:?}");
     assert!(!erosion::is_made(&file, Path::new(""), &cases[2], out));
     make(&file, &cases, out);
     let again = std::fs::metadata(&path).expect("a case").modified().expect("a time");
@@ -174,4 +176,24 @@ fn a_case_without_a_result_is_told_as_one() {
         let csv = std::fs::read_to_string(out.join("cases.csv")).expect("a table");
         assert!(!csv.contains("NaN") && !csv.contains("inf"), "{csv}");
     }
+}
+
+/// Fails for a case that cannot be made and ends the study with it, or that nobody can name.
+#[test]
+fn a_case_that_cannot_be_made_leaves_the_others_alone() {
+    let mut file = study(&text(GRAINS, "\"70 deg\"", 6));
+    let folder = tempfile::tempdir().expect("a folder");
+    let form = abrade_scene::scene::Form::Mesh { file: "gone.stl".into() };
+    file.grains.get_mut("grit").expect("the grit").form = form;
+    let cases = file.cases();
+    let unmade = erosion::make(&file, Path::new(""), &cases, folder.path(), &mut crate::Quiet);
+    let unmade = unmade.expect("the others");
+    assert_eq!(unmade.len(), 1);
+    let told = unmade[0].to_string();
+    assert!(told.starts_with("case 0, grit at 98.1 m/s and 70 deg: "), "{told}");
+    assert!(told.contains("gone.stl"), "{told}");
+    assert!(erosion::is_made(&file, Path::new(""), &cases[1], folder.path()));
+    let result = erosion::result(&file, Path::new(""), folder.path()).expect("the others");
+    assert_eq!((result.missing(), result.cases.len(), result.grains.len()), (1, 1, 1));
+    erosion::write(&result, Path::new(""), folder.path()).expect("files");
 }
