@@ -13,7 +13,7 @@ use rayon::prelude::*;
 
 use super::file::{Plate, Size, StudyFile};
 use super::impact::{Impact, Landed, Miss, Shot};
-use super::sample::Sample;
+use super::sample::{CUT, Sample};
 use super::statistics::{self, Estimate};
 
 /// Half the edge of a fresh plate, in lengths of the grain.
@@ -21,7 +21,7 @@ const REACH: f64 = 6.0;
 /// Impacts on a worn plate that are made beside each other; their number, so that results do not depend on
 /// that of the threads.
 const BESIDE: u32 = 8;
-/// Impacts on a worn plate between two looks at the user's wish to stop.
+/// Impacts between two looks at the user's wish to stop.
 const STRETCH: u32 = 64;
 
 /// A case.
@@ -35,6 +35,13 @@ pub struct Case {
     pub speed: f64,
     /// Angle from the surface [rad].
     pub angle: f64,
+}
+
+impl Case {
+    /// True for the case of this grain, speed and angle.
+    pub(crate) fn is(&self, grain: &str, speed: f64, angle: f64) -> bool {
+        self.grain == grain && self.speed == speed && self.angle == angle
+    }
 }
 
 /// A case that could not be made, and why.
@@ -147,8 +154,8 @@ impl<'a> Range<'a> {
         case: &'a Case,
     ) -> Result<Self, CaseError> {
         let median = file.grain_of_median_size(&case.grain, 0, folder)?;
-        let pitch = file.pitch(&median, case.speed);
-        let plate = Arc::new(file.plate(&median, pitch)?);
+        let strip = file.strip(&median, case.speed);
+        let plate = Arc::new(Surface::hex_strip(strip, file.target.laws())?);
         let is_one = file.size.spread() == 0.0
             && !matches!(file.grains[&case.grain].form, Form::Grit { .. });
         Ok(Self { file, folder, case, grain: is_one.then_some(median), plate })
@@ -161,12 +168,14 @@ impl Range<'_> {
         let samples = &self.file.samples;
         let mut impacts = Impacts::new();
         while wants_more(self.file, &impacts) {
-            let from = impacts.len() as u32;
-            let to = (from + samples.least).min(samples.most);
-            let landed = self.land_some(from..to, &self.plate)?;
-            impacts.extend(landed.into_iter().map(|landed| told(landed.outcome).0));
-            if !progress.advance(contact_time(&impacts), Some(share(self.file, &impacts))) {
-                return Ok(None);
+            let end = (impacts.len() as u32 + samples.least).min(samples.most);
+            while (impacts.len() as u32) < end {
+                let from = impacts.len() as u32;
+                let landed = self.land_some(from..(from + STRETCH).min(end), &self.plate)?;
+                impacts.extend(landed.into_iter().map(|landed| told(landed.outcome).0));
+                if !progress.advance(contact_time(&impacts), Some(share(self.file, &impacts))) {
+                    return Ok(None);
+                }
             }
         }
         Ok(Some(impacts))
@@ -206,7 +215,9 @@ impl Range<'_> {
             let is_stale = changed.iter().any(|part| overlap(part, &landed.seen));
             let landed = if is_stale { self.land(k, plate)? } else { landed };
             let (impact, changes) = told(landed.outcome);
-            if let (Some(changes), Some(plate)) = (changes, Arc::get_mut(plate)) {
+            if let Some(changes) = changes {
+                // No leaf of it is left: this copies nothing.
+                let plate = Arc::make_mut(plate);
                 changed.extend(changes.bounds(plate.nodes()));
                 plate.apply(&changes);
             }
@@ -311,16 +322,15 @@ impl StudyFile {
         (energy / self.target.material.hardness).cbrt() / self.resolution
     }
 
-    /// The plate, unworn.
-    fn plate(&self, median: &MadeGrain, pitch: f64) -> Result<Surface, SurfaceError> {
-        let largest = median.feret * (2.5 * self.size.spread()).exp();
+    /// The plate that `median` strikes at this `speed` [m/s].
+    pub(crate) fn strip(&self, median: &MadeGrain, speed: f64) -> HexStrip {
+        let largest = median.feret * (CUT * self.size.spread()).exp();
         let spread = match self.plate {
             Plate::Fresh => 0.0,
             Plate::Worn { width } => width,
         };
         let edge = spread + 2.0 * REACH * largest;
-        let strip = HexStrip { length: edge, width: edge, pitch, rest_area: None };
-        Surface::hex_strip(strip, self.target.laws())
+        HexStrip { length: edge, width: edge, pitch: self.pitch(median, speed), rest_area: None }
     }
 }
 

@@ -42,7 +42,8 @@ impl Erosion {
         let mut series = self.by_angle(|result| result.wear_ratio);
         series.retain(|series| !series.points.is_empty());
         let reference = self.file.reference.as_deref().unwrap_or("nothing");
-        let alt = format!("Displaced volume over that of {reference}, at equal mass");
+        let word = self.file.size.word();
+        let alt = format!("Displaced volume per mass over that of {reference}, at equal {word}");
         self.chart("ratio.png", &alt, "ratio (-)", &series)
     }
 

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use abrade::{ParameterError, SurfaceError};
+use abrade::{NODE_LIMIT, ParameterError, SurfaceError};
+use abrade_report::quantity_text::digits;
 use abrade_scene::scene::Form;
 use abrade_scene::{Document, FileKind, SceneError, folder_name_fault};
 
@@ -19,6 +20,7 @@ pub fn load(path: &Path, sets: &[String]) -> Result<StudyFile, SceneError> {
     check_target(&mut document);
     check_grains(&mut document, folder);
     check_ranges(&mut document);
+    check_plates(&mut document, folder);
     let mut file = document.finish()?;
     if file.reference.is_none() {
         let sphere = file.grains.iter().find(|(_, grain)| grain.form == Form::Sphere);
@@ -67,6 +69,25 @@ fn check_grains(document: &mut Document<StudyFile>, folder: &Path) {
     }
 }
 
+/// A plate of more nodes than there may be is refused before anything is made.
+fn check_plates(document: &mut Document<StudyFile>, folder: &Path) {
+    let file = document.value.clone();
+    let nodes = |(name, speed): (&String, f64)| {
+        let median = file.grain_of_median_size(name, 0, folder).ok()?;
+        let [columns, rows] = file.strip(&median, speed).columns_rows();
+        (columns * rows > NODE_LIMIT).then(|| (name.clone(), speed, columns * rows))
+    };
+    let all = file.grains.keys().flat_map(|name| file.speeds.iter().map(move |&v| (name, v)));
+    if let Some((name, speed, nodes)) = all.into_iter().find_map(nodes) {
+        let message = format!(
+            "the plate of the grain `{name}` at {} m/s would have {nodes:.1e} nodes",
+            digits(speed)
+        );
+        let label = format!("lower it: at most {NODE_LIMIT:.0e} nodes are allowed");
+        document.refuse(&["resolution"], message, label);
+    }
+}
+
 fn check_ranges(document: &mut Document<StudyFile>) {
     let file = document.value.clone();
     let (samples, size) = (&file.samples, &file.size);
@@ -106,6 +127,10 @@ fn check_ranges(document: &mut Document<StudyFile>) {
                 };
                 let path = [field, &at.to_string()];
                 document.refuse(&path, format!("`{field}.{at}` is out of range"), label);
+            }
+            if values[..at].contains(&value) {
+                let path = [field, &at.to_string()];
+                document.refuse(&path, format!("`{field}.{at}` is there twice"), "leave it out");
             }
         }
     }

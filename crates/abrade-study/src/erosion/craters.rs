@@ -21,9 +21,7 @@ pub(crate) fn craters(file: &StudyFile, folder: &Path) -> Result<Option<Drawn>, 
     let cases = file.cases();
     let row = |name: &String| {
         let at = |angle: &f64| {
-            let is = |case: &&Case| {
-                case.grain == *name && case.speed == file.speeds[0] && case.angle == *angle
-            };
+            let is = |case: &&Case| case.is(name, file.speeds[0], *angle);
             cases.iter().find(is).and_then(|case| crater(file, folder, case)).unwrap_or_default()
         };
         (name.clone(), file.angles.iter().map(at).collect())

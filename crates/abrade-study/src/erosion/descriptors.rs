@@ -16,7 +16,7 @@ use super::silhouette;
 const COUNT: u32 = 64;
 /// Height over the lowest point at which a grain's front is looked at, over the diameter of the sphere
 /// of the same volume.
-const LEVEL: f64 = 0.05;
+pub(crate) const LEVEL: f64 = 0.05;
 /// Points per sphere of a clump that its surface is judged by.
 const POINTS: u32 = 2000;
 
@@ -33,8 +33,9 @@ pub struct Descriptors {
     /// 443) [-].
     pub sphericity: f64,
     /// Radius of the tips over that of the largest sphere about the centre of mass within the grain [-];
-    /// 0 for sharp corners.
-    pub roundness: f64,
+    /// 0 for sharp corners. None where nobody knows the tips, those of superquadrics and meshes, and where
+    /// that centre is outside of the grain.
+    pub roundness: Option<f64>,
     /// Mean angle from the surface to the line from the lowest point to the grain's front, at a height of
     /// 0.05 diameters, over all attitudes [rad].
     pub attack_angle_rad: f64,
@@ -66,11 +67,12 @@ pub(crate) fn describe(
         sum.volume_diameter_m += share * one.volume_diameter_m;
         sum.feret_diameter_m += share * one.feret_diameter_m;
         sum.sphericity += share * one.sphericity;
-        sum.roundness += share * one.roundness;
         sum.attack_angle_rad += share * one.attack_angle_rad;
         sum.spike += share * one.spike;
-        sum.fit_error_m = one.fit_error_m;
-        sum.tip_radius_m = one.tip_radius_m;
+        let mean = |sum: Option<f64>, one: Option<f64>| one.map(|x| sum.unwrap_or(0.0) + share * x);
+        sum.roundness = mean(sum.roundness, one.roundness);
+        sum.fit_error_m = mean(sum.fit_error_m, one.fit_error_m);
+        sum.tip_radius_m = mean(sum.tip_radius_m, one.tip_radius_m);
     }
     Ok(sum)
 }
@@ -86,7 +88,7 @@ fn of(grain: &MadeGrain, form: &Form, rotations: &[UnitQuaternion<f64>]) -> Desc
         volume_diameter_m: diameter,
         feret_diameter_m: grain.feret,
         sphericity: PI * diameter * diameter / area(shape),
-        roundness: tip(grain, form) / inscribed(shape),
+        roundness: roundness(grain, form),
         attack_angle_rad: mean(&|rotation| attack(shape, rotation, LEVEL * diameter)),
         spike: mean(&|rotation| silhouette::spike(&silhouette::profile(shape, rotation))),
         fit_error_m: grain.fit.map(|fit| fit.error),
@@ -94,19 +96,21 @@ fn of(grain: &MadeGrain, form: &Form, rotations: &[UnitQuaternion<f64>]) -> Desc
     }
 }
 
-/// Radius of the tips [m].
-fn tip(grain: &MadeGrain, form: &Form) -> f64 {
+fn roundness(grain: &MadeGrain, form: &Form) -> Option<f64> {
     let balls = balls(&grain.solid.shape);
-    match (form, grain.fit) {
+    let inner = inscribed(&grain.solid.shape)?;
+    let tip = match (form, grain.fit) {
         (_, Some(fit)) => fit.tip_radius,
         // The edge follows from the diameter of the cube with round corners, whose largest inner sphere
         // has half of it.
-        (Form::RoundedCube { radius }, None) => 2.0 * radius * inscribed(&grain.solid.shape),
+        (Form::RoundedCube { radius }, None) => 2.0 * radius * inner,
         (Form::Sphere | Form::Clump { .. }, None) => {
             balls.iter().map(|ball| ball.radius).sum::<f64>() / balls.len() as f64
         }
+        (Form::Superquadric { .. } | Form::Mesh { .. }, None) => return None,
         _ => 0.0,
-    }
+    };
+    Some(tip / inner)
 }
 
 fn balls(shape: &Shape) -> Vec<Ball> {
@@ -117,13 +121,18 @@ fn balls(shape: &Shape) -> Vec<Ball> {
     shape.pieces().iter().filter_map(ball).collect()
 }
 
-/// Radius of the largest sphere about the centre of mass within the shape [m].
-fn inscribed(shape: &Shape) -> f64 {
-    let least = |piece: &Piece| match piece {
+/// Radius of the largest sphere about the centre of mass within a hull or a union of spheres [m]; None
+/// where that centre is outside.
+fn inscribed(shape: &Shape) -> Option<f64> {
+    let balls = balls(shape);
+    let nearest = |piece: &Piece| match piece {
         Piece::Hull(hull) => hull.planes().iter().map(|p| p.offset).fold(f64::INFINITY, f64::min),
-        Piece::Ball(ball) => ball.radius - ball.centre.coords.norm(),
+        Piece::Ball(ball) => {
+            open_points(ball, &balls).map(|point| point.coords.norm()).fold(f64::INFINITY, f64::min)
+        }
     };
-    shape.pieces().iter().map(least).fold(0.0, f64::max)
+    let is_inside = balls.is_empty() || balls.iter().any(|b| b.centre.coords.norm() < b.radius);
+    is_inside.then(|| shape.pieces().iter().map(nearest).fold(f64::INFINITY, f64::min))
 }
 
 /// Surface [m2]; of a union of spheres by points all over them.
@@ -149,18 +158,25 @@ fn hull_area(hull: &Hull) -> f64 {
 
 /// Area of `ball` that no other of `balls` covers [m2].
 fn open_area(ball: &Ball, balls: &[Ball]) -> f64 {
+    let open = open_points(ball, balls).count();
+    4.0 * PI * ball.radius * ball.radius * open as f64 / f64::from(POINTS)
+}
+
+/// Points spread evenly over `ball` that no other of `balls` covers.
+fn open_points<'a>(ball: &'a Ball, balls: &'a [Ball]) -> impl Iterator<Item = Point3<f64>> + 'a {
     let golden = PI * (3.0 - 5f64.sqrt());
-    let is_open = |i: &u32| {
-        let z = 1.0 - (2.0 * f64::from(*i) + 1.0) / f64::from(POINTS);
-        let (turn, out) = (golden * f64::from(*i), (1.0 - z * z).sqrt());
-        let point = ball.centre + Vector3::new(out * turn.cos(), out * turn.sin(), z) * ball.radius;
+    let point = move |i: u32| {
+        let z = 1.0 - (2.0 * f64::from(i) + 1.0) / f64::from(POINTS);
+        let (turn, out) = (golden * f64::from(i), (1.0 - z * z).sqrt());
+        ball.centre + Vector3::new(out * turn.cos(), out * turn.sin(), z) * ball.radius
+    };
+    let is_open = move |point: &Point3<f64>| {
         let covers = |other: &Ball| {
             other != ball && (point - other.centre).norm() < other.radius * (1.0 - 1e-9)
         };
         !balls.iter().any(covers)
     };
-    let open = (0..POINTS).filter(is_open).count();
-    4.0 * PI * ball.radius * ball.radius * open as f64 / f64::from(POINTS)
+    (0..POINTS).map(point).filter(is_open)
 }
 
 /// Angle from the surface to the line from the lowest point of the shape, so turned, to its front at the
@@ -204,5 +220,27 @@ fn front(piece: &Piece, rotation: &UnitQuaternion<f64>, height: f64) -> f64 {
             };
             edges.filter_map(crossing).fold(f64::NEG_INFINITY, f64::max)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn clump(centres: [f64; 2], radius: f64) -> Shape {
+        let ball = |x: f64| Piece::Ball(Ball { centre: Point3::new(x, 0.0, 0.0), radius });
+        Shape::union(centres.map(ball).to_vec()).expect("two balls")
+    }
+
+    /// Fails for an inner sphere of one ball alone, or one of a centre that lies between balls.
+    #[test]
+    fn the_inner_sphere_is_that_of_the_union() {
+        // Two balls of radius 1 meet in a ring of this radius about the centre.
+        let ring = (1.0f64 - 0.5 * 0.5).sqrt();
+        let inner = inscribed(&clump([-0.5, 0.5], 1.0)).expect("it is inside");
+        assert!((inner - ring).abs() < 5e-3, "{inner} {ring}");
+        assert_eq!(inscribed(&clump([-2.0, 2.0], 1.0)), None);
+        let ball = inscribed(&Shape::ball(3.0).expect("a ball")).expect("it is inside");
+        assert!((ball - 3.0).abs() < 1e-12, "{ball}");
     }
 }

@@ -173,6 +173,14 @@ impl Size {
         *diameter
     }
 
+    /// What of all grains is alike.
+    pub(crate) fn word(&self) -> &'static str {
+        match self {
+            Self::Volume { .. } => "mass",
+            Self::Feret { .. } => "length",
+        }
+    }
+
     pub(crate) fn spread(&self) -> f64 {
         let (Self::Volume { spread, .. } | Self::Feret { spread, .. }) = self;
         *spread

@@ -4,7 +4,10 @@ use abrade_report::quantity_text::digits;
 use abrade_report::sheet::{Part, Sheet};
 
 use super::charts::Drawn;
+use super::descriptors::LEVEL;
 use super::laws::{self, Prediction};
+use super::quantities::STILL;
+use super::sensitivity::Sensitivity;
 use super::statistics::Estimate;
 use super::summary::{CaseResult, Erosion};
 use super::table::{fixed, percent, told};
@@ -68,8 +71,9 @@ impl Erosion {
         };
         Some(match (reference, ratio(first), ratio(last)) {
             (Some(reference), Some(one), Some(other)) => format!(
-                "{name}: displaces {one} to {other} times as much as {reference} of the same {}; {leaves}.",
-                self.size_word()
+                "{name}: displaces, per mass, {one} to {other} times as much as {reference} of the same {}; \
+                 {leaves}.",
+                self.file.size.word()
             ),
             _ => format!("{name}: {leaves}."),
         })
@@ -88,13 +92,6 @@ impl Erosion {
         self.cases.iter().filter(move |r| r.case.grain == name && r.case.speed == speed)
     }
 
-    fn size_word(&self) -> &'static str {
-        match self.file.size {
-            super::file::Size::Volume { .. } => "mass",
-            super::file::Size::Feret { .. } => "length",
-        }
-    }
-
     fn cases_table(&self, speed: f64) -> Part {
         let head = [
             "grain, angle",
@@ -103,7 +100,7 @@ impl Erosion {
             "over reference",
             "debris mm³/kg",
             "over reference",
-            "W H / E0",
+            "energy in wear",
             "depth µm",
             "restitution",
             "normal",
@@ -115,9 +112,11 @@ impl Erosion {
         let cases = self.cases.iter().filter(|result| result.case.speed == speed);
         Part::Table {
             heading: format!("Cases at {} m/s", digits(speed)),
-            note: "Restitution is speed after over speed before, and the same of its parts; a grain turns on \
-                   if its rim goes round, the way a wheel rolls, at more than 0.02 of its speed."
-                .into(),
+            note: format!(
+                "Energy in wear is a share of that before the impact. Restitution is speed after over speed \
+                 before, and the same of its parts; a grain turns on if its rim goes round, the way a wheel \
+                 rolls, at more than {STILL} of its speed."
+            ),
             head: head.map(str::to_owned).to_vec(),
             rows: cases.map(row).collect(),
         }
@@ -148,20 +147,22 @@ impl Erosion {
         let off = |angle: f64| (angle - 30f64.to_radians()).abs();
         let nearest = self.file.angles.iter().min_by(|a, b| off(**a).total_cmp(&off(**b)))?;
         let at: Vec<_> = self.sensitivities.iter().filter(|s| s.angle == *nearest).collect();
-        let criticals: Vec<f64> =
-            at.first()?.ratios.iter().map(|(critical, _)| *critical).collect();
         let reference = self.file.reference.as_deref()?;
+        let tells = |column: &usize| at.iter().any(|s| s.ratios[*column].1.value.is_finite());
+        let columns: Vec<usize> = (0..at.first()?.ratios.len()).filter(tells).collect();
         let degrees = |angle: f64| format!("{} deg", digits(angle.to_degrees()));
-        let head = ["grain".to_owned()].into_iter().chain(criticals.iter().map(|c| degrees(*c)));
-        let row = |s: &&super::Sensitivity| {
-            [s.grain.clone()].into_iter().chain(s.ratios.iter().map(|(_, r)| sign(r))).collect()
+        let cells = |name: &str, cell: &dyn Fn(usize) -> String| {
+            let cells = columns.iter().map(|column| cell(*column));
+            [name.to_owned()].into_iter().chain(cells).collect::<Vec<_>>()
         };
+        let head = cells("grain", &|column| degrees(at[0].ratios[column].0));
+        let row = |s: &&Sensitivity| cells(&s.grain, &|column| sign(&s.ratios[column].1));
         Some(Part::Table {
             heading: format!("Debris of {reference} over that of the grain at {}, by critical angle", degrees(*nearest)),
             note: "Debris is what faces cut at an angle of attack above the critical one, and chips. Factors of \
                    shape in use for erosion by round against angular sand are 0.2 to 0.53."
                 .into(),
-            head: head.collect(),
+            head,
             rows: at.iter().map(row).collect(),
         })
     }
@@ -187,7 +188,7 @@ impl Erosion {
                 digits(1e6 * d.volume_diameter_m),
                 digits(1e6 * d.feret_diameter_m),
                 digits(d.sphericity),
-                digits(d.roundness),
+                d.roundness.map_or("-".to_owned(), digits),
                 digits(d.attack_angle_rad.to_degrees()),
                 digits(d.spike),
                 micro(d.fit_error_m),
@@ -196,11 +197,12 @@ impl Erosion {
         });
         Part::Table {
             heading: "Grains".into(),
-            note: "Diameter of the sphere of the same volume; sphericity by Wadell; roundness is tip radius over \
-                   that of the largest inner sphere; attack is the mean angle from the surface to the front at a \
-                   height of 0.05 diameters; SPQ by Hamblin and Stachowiak; fit is how far a clump stays below its \
-                   form."
-                .into(),
+            note: format!(
+                "Diameter of the sphere of the same volume; sphericity by Wadell; roundness is tip radius over \
+                 that of the largest inner sphere; attack is the mean angle from the surface to the front at a \
+                 height of {LEVEL} diameters; SPQ by Hamblin and Stachowiak; fit is how far a clump stays below \
+                 its form."
+            ),
             head: head.map(str::to_owned).to_vec(),
             rows: rows.collect(),
         }

@@ -85,7 +85,7 @@ fn slope(points: &[[f64; 2]]) -> f64 {
 /// Cubic millimetres per cubic metre.
 const MM3: f64 = 1e9;
 /// Speed at the rim of a grain, over that of its centre before, below which it counts as not turned.
-const STILL: f64 = 0.02;
+pub(crate) const STILL: f64 = 0.02;
 
 /// Displaced volume per mass of grains.
 pub(crate) const WEAR: Quantity = per_mass("wear_mm3_per_kg", |i| i.wear_volume_m3 * MM3);

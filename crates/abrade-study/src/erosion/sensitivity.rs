@@ -18,7 +18,8 @@ pub struct Sensitivity {
     pub grain: String,
     /// Angle from the surface [rad].
     pub angle: f64,
-    /// Critical angles [rad] and the ratios there.
+    /// Critical angles [rad], the same for all grains, and the ratios there; not finite where the grain leaves
+    /// no debris.
     pub ratios: Vec<(f64, Estimate)>,
 }
 
@@ -28,10 +29,8 @@ pub(crate) fn sensitivities(file: &StudyFile, made: &[(Case, Made)]) -> Vec<Sens
     let Removal::AttackAngle { .. } = file.target.removal else { return Vec::new() };
     let Some(reference) = &file.reference else { return Vec::new() };
     let find = |grain: &String, angle: f64| {
-        let is = |case: &Case| {
-            case.grain == *grain && case.speed == file.speeds[0] && case.angle == angle
-        };
-        made.iter().find(|(case, _)| is(case)).map(|(_, made)| made)
+        let found = made.iter().find(|(case, _)| case.is(grain, file.speeds[0], angle));
+        found.map(|(_, made)| made)
     };
     let mut found = Vec::new();
     for grain in file.grains.keys().filter(|grain| *grain != reference) {
@@ -40,8 +39,8 @@ pub(crate) fn sensitivities(file: &StudyFile, made: &[(Case, Made)]) -> Vec<Sens
                 continue;
             };
             let ratio = |bin: usize| (bin as f64 * ATTACK_BIN, cut_from(bin).ratio(base, one));
-            let ratios = BINS.into_iter().map(ratio).filter(|(_, ratio)| ratio.value.is_finite());
-            found.push(Sensitivity { grain: grain.clone(), angle, ratios: ratios.collect() });
+            let ratios = BINS.into_iter().map(ratio).collect();
+            found.push(Sensitivity { grain: grain.clone(), angle, ratios });
         }
     }
     found

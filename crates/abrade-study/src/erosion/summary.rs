@@ -66,9 +66,7 @@ impl Erosion {
     ) -> Self {
         let hits: Vec<Vec<Impact>> = made.iter().map(|(_, made)| hits(made)).collect();
         let find = |grain: &str, speed: f64, angle: f64| {
-            let is =
-                |case: &Case| case.grain == grain && case.speed == speed && case.angle == angle;
-            made.iter().position(|(case, _)| is(case))
+            made.iter().position(|(case, _)| case.is(grain, speed, angle))
         };
         let result = |(at, (case, case_made)): (usize, &(Case, Made))| {
             let reference = file.reference.as_deref();

@@ -95,7 +95,7 @@ const HEAD: [(&str, usize); 10] = [
     ("over ref.", 14),
     ("debris mm3/kg", 18),
     ("over ref.", 14),
-    ("W H/E0", 7),
+    ("in wear", 7),
     ("depth um", 9),
     ("restit.", 8),
     ("turns on", 9),

@@ -197,3 +197,65 @@ fn a_case_that_cannot_be_made_leaves_the_others_alone() {
     assert_eq!((result.missing(), result.cases.len(), result.grains.len()), (1, 1, 1));
     erosion::write(&result, Path::new(""), folder.path()).expect("files");
 }
+
+/// Counts how often it is asked.
+struct Count(u32);
+
+impl Progress for Count {
+    fn advance(&mut self, _: f64, share: Option<f64>) -> bool {
+        self.0 += 1;
+        let share = share.expect("a share");
+        assert!((share - f64::from(64 * self.0) / 300.0).abs() < 1e-12 || share == 1.0, "{share}");
+        true
+    }
+}
+
+/// Fails for a case that hears of an interrupt only when its fewest impacts are made.
+#[test]
+fn a_long_case_can_be_broken_off() {
+    let file = study(&text("\"sphere\": (form: Sphere)", "\"90 deg\"", 300));
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut count = Count(0);
+    let made = erosion::make(&file, Path::new(""), &file.cases(), folder.path(), &mut count);
+    assert_eq!((made.expect("impacts"), count.0), (vec![], 5));
+}
+
+/// Fails for faults that only turn up when the study is made, or not at all.
+#[test]
+fn what_cannot_be_made_is_refused_at_its_place() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("study.ron");
+    std::fs::write(&path, text("\"sphere\": (form: Sphere)", "\"30 deg\"", 6)).expect("a file");
+    let cases = [
+        ("resolution=1000", "6.7e9 nodes", "at most"),
+        ("target.elastic=Foundation(stiffness: -1.0)", "target.elastic.stiffness", "above zero"),
+        ("target.elastic=HertzNodes(node_radius: 0.0)", "target.elastic.node_radius", "above zero"),
+        ("speeds=[50, 60, 50]", "`speeds.2` is there twice", "leave it out"),
+        ("angles=[\"30 deg\", \"30 deg\"]", "`angles.1` is there twice", "leave it out"),
+    ];
+    for (set, what, allowed) in cases {
+        let error = erosion::load(&path, &[set.to_owned()]).expect_err(set).to_string();
+        assert!(error.contains(what), "{set}: {error}");
+        let told = format!("{:?}", erosion::load(&path, &[set.to_owned()]));
+        assert!(told.contains(allowed), "{set}: {told}");
+    }
+}
+
+/// Fails for a page that calls a ratio per mass one of masses, or of grains of one length one of equal mass.
+#[test]
+fn the_page_says_what_is_alike() {
+    for (size, alike) in [("Volume", "of the same mass"), ("Feret", "of the same length")] {
+        let text = text(
+            "\"sphere\": (form: Sphere), \"cube\": (form: Polyhedron(kind: Cube))",
+            "\"90 deg\"",
+            6,
+        );
+        let file = study(&text.replace("Volume", size));
+        let folder = tempfile::tempdir().expect("a folder");
+        make(&file, &file.cases(), folder.path());
+        let result = erosion::result(&file, Path::new(""), folder.path()).expect("a result");
+        erosion::write(&result, Path::new(""), folder.path()).expect("files");
+        let page = std::fs::read_to_string(folder.path().join("report.html")).expect("a page");
+        assert!(page.contains("displaces, per mass,") && page.contains(alike), "{size}");
+    }
+}
