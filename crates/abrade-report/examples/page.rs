@@ -54,6 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         surfaces: BTreeMap::from([("plate".into(), surface)]),
         bodies: BTreeMap::from([("ball".into(), ball)]),
         energy: Some(EnergySummary { initial: 0.1732, kinetic: 0.1065, ..Default::default() }),
+        erosion: None,
         error_estimate: ErrorEstimate {
             time: Some(8.1e-4),
             pitch: None,

@@ -1,6 +1,6 @@
 //! Rigid-plastic spheres at 10, 20 and 40 nodes across the contact.
 
-use crate::run::{Row, Verdict, number, rms, table};
+use crate::run::{Row, Verdict, at, number, rms, run, table, vector};
 use crate::theory::{End, LANDINGS, errors, land, landing};
 
 /// The landings of a row with so many nodes across the largest contact.
@@ -113,4 +113,38 @@ fn oblique_spheres() {
     }
     assert!(over <= 3, "{over} rows above 1e-3 in W at 20 nodes");
     study.close(verdict, &["W", "v", "omega"]);
+}
+
+/// The scene as it is shipped, from one landing. Fails for a pitch at which it no longer gives the theory.
+#[test]
+fn the_shipped_oblique_sphere() {
+    let mut verdict = Verdict::default();
+    let plain = table("rigid_plastic_sphere_oblique");
+    let rubbed = table("rigid_plastic_sphere_oblique_friction");
+    let rows = plain.iter().chain(&rubbed);
+    for row in rows.filter(|row| number(row, "beta") == 0.01) {
+        let (alpha, mu) = (number(row, "alpha"), number(row, "mu"));
+        let sets = [
+            format!("bodies.ball.motion.angle={alpha} deg"),
+            format!("materials.plate.friction={mu}"),
+            format!("bodies.ball.rotation_locked={}", row["rot"] == "0"),
+        ];
+        let summary = run("theory/sphere_oblique.ron", &sets);
+        let e0 = at(&summary, "energy.initial_J");
+        let w = 1e9 * at(&summary, "surfaces.plate.wear_volume_m3") / e0;
+        let v = vector(&summary, "bodies.ball.velocity_m_s");
+        let (dw, dvx, dvz) = (
+            w - number(row, "WH_over_E0"),
+            v[0] / 100.0 - number(row, "vx"),
+            v[2] / 100.0 - number(row, "vz"),
+        );
+        verdict.row(
+            dw.abs() < 1e-3 && dvx.abs() < 1e-3 && dvz.abs() < 1e-3,
+            format!(
+                "alpha {alpha} mu {mu} rot {}: dW {dw:+.1e} dvx {dvx:+.1e} dvz {dvz:+.1e}",
+                row["rot"]
+            ),
+        );
+    }
+    verdict.close();
 }
