@@ -168,7 +168,7 @@ impl Case {
         let mut draw = Draw(!SEED ^ number.wrapping_mul(0xd134_2543_de82_ef95));
         draw.bits();
         let adhesion = Some([draw.decades(1e-3, 0.99), draw.decades(1e-3, 1.0)]);
-        Self { adhesion, ..Self::numbered(number) }
+        Self { adhesion, elastic: Elastic::Foundation, ..Self::numbered(number) }
     }
 
     /// [m/s], +x and downwards.

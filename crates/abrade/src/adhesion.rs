@@ -1,5 +1,5 @@
 //! Adhesion beside the contact law: what lies within a range of a node is drawn to it by a constant
-//! traction (Dugdale 1960), whatever the elastic law and the shape.
+//! traction (Dugdale 1960), whatever the shape, against the springs of either elastic law.
 //!
 //! A node of area a at a distance g from the body holds the energy -a sigma_0 (range - g) within the
 //! range, and -a w in contact, w = sigma_0 range. In a step it pulls along the shortest way with the
@@ -20,11 +20,12 @@ use crate::encounter::{Loads, Placed};
 use crate::extent::{Nearest, nearest};
 use crate::flight::{acceleration, time_to_close, top_speed};
 use crate::integrate::Integrator;
+use crate::laws::ElasticLaw;
 use crate::node_law::Motion;
 use crate::shape::{Piece, Shape};
 #[cfg(feature = "state")]
 use crate::state::{Fault, not_negative, positive, require};
-use crate::surface::Surface;
+use crate::surface::{Surface, SurfaceLaws};
 use crate::toll::Push;
 use crate::trial::Trial;
 
@@ -280,6 +281,17 @@ impl Attraction {
         self.push.add(&other.push, pose);
         self.energy += other.energy;
         self.reaching += other.reaching;
+    }
+}
+
+impl SurfaceLaws {
+    /// How far from a node a body feels it [m]: r_s of `HertzNodes`, and the range of adhesion.
+    pub fn reach(&self) -> f64 {
+        let radius = match self.elastic {
+            ElasticLaw::HertzNodes { node_radius, .. } => node_radius,
+            _ => 0.0,
+        };
+        radius + self.adhesion.as_ref().map_or(0.0, |adhesion| adhesion.range)
     }
 }
 

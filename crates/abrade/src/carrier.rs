@@ -334,11 +334,10 @@ impl Integrator {
         let rides = self.rides.iter_mut().zip(&self.answers);
         let free = rides.filter_map(|(ride, answer)| {
             let ride = ride.as_mut().filter(|ride| !ride.dynamics.is_immovable())?;
-            let strength = strength(answer) + ride.predicted;
-            Some((ride, strength))
+            Some((strength(answer) + ride.predicted, ride))
         });
-        let most = free.max_by(|a, b| a.1.total_cmp(&b.1));
-        let Some((ride, _)) = most.filter(|(_, strength)| *strength > 0.0) else { return 0.0 };
+        let most = free.max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((_, ride)) = most.filter(|(strength, _)| *strength > 0.0) else { return 0.0 };
         let turn = ride.dynamics.turn(&ride.end.rotation, &-ahead);
         let gained = -ride.dynamics.work(&ahead, &(ride.end.spin + 0.5 * turn));
         ride.end.spin += turn;

@@ -54,6 +54,12 @@ impl Contact {
                 });
             }
         }
+        if rigid && laws.adhesion.is_some() {
+            return Err(PhysicsError::Unsupported {
+                what: "adhesion holds a body against its springs, and Rigid has none: take \
+                       Foundation, or HertzNodes",
+            });
+        }
         let hertz = matches!(laws.elastic, ElasticLaw::HertzNodes { .. });
         if hertz && shape.has_faces() && !surface.is_flat() {
             return Err(PhysicsError::Unsupported {

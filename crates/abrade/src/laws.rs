@@ -52,7 +52,8 @@ pub enum HertzConvention {
 }
 
 /// Adhesion: what lies within a range of a node is drawn to it by a constant traction (Dugdale 1960;
-/// Maugis, Journal of Colloid and Interface Science 150 (1992) 243).
+/// Maugis, Journal of Colloid and Interface Science 150 (1992) 243). It takes springs: `Foundation` or
+/// `HertzNodes`.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

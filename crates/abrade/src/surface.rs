@@ -140,15 +140,6 @@ impl SurfaceLaws {
         }
     }
 
-    /// How far from a node a body feels it [m]: r_s of `HertzNodes`, and the range of adhesion.
-    pub fn reach(&self) -> f64 {
-        let radius = match self.elastic {
-            ElasticLaw::HertzNodes { node_radius, .. } => node_radius,
-            _ => 0.0,
-        };
-        radius + self.adhesion.as_ref().map_or(0.0, |adhesion| adhesion.range)
-    }
-
     /// An error unless `restitution` is one that a surface can have.
     pub fn check_restitution(restitution: f64) -> Option<ParameterError> {
         ParameterError::within("restitution", restitution, LEAST_RESTITUTION, 1.0)

@@ -112,6 +112,10 @@ impl Checker<'_> {
             let message = "`lateral: Eq5` is the paper's formula for a ball on springs".to_owned();
             self.refuse(&path.join("flow"), message, "`Rigid` has none; take `lateral: Projected`");
         }
+        if surface.elastic == ElasticLaw::Rigid && surface.adhesion.is_some() {
+            let message = "`adhesion` holds a body against its springs".to_owned();
+            self.refuse(&path.join("adhesion"), message, "`Rigid` has none; take `Foundation()`");
+        }
         let errors = surface.adhesion.iter().flat_map(|adhesion| adhesion.check(material));
         self.ranges(&path.join("adhesion"), errors.map(Some));
         for error in laws.check() {
