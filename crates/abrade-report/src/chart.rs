@@ -92,7 +92,9 @@ impl Chart<'_> {
     /// # Errors
     /// The drawing library's own.
     pub fn to_png(&self) -> Result<Vec<u8>, ReportError> {
-        let mut canvas = Canvas::new(SIZE[0], SIZE[1])?;
+        // As high as the legend needs.
+        let legend = PLOT.top + LINE * (self.series.len() as f64 + 0.5);
+        let mut canvas = Canvas::new(SIZE[0], SIZE[1].max(legend as usize))?;
         let look = Text { size: 34.0, bold: true, align: Align::Left, ..Text::default() };
         let title = canvas.fitted(self.title, look, SIZE[0] as f64 - 1.5 * PLOT.left);
         canvas.text([PLOT.left, 40.0], &title, look);
@@ -236,6 +238,20 @@ mod tests {
         assert!((drawn - 100.0 * DASH[0] / period).abs() < DASH[0], "{drawn}");
         assert_eq!(strokes.len(), (100.0 / period).ceil() as usize);
         assert!(strokes.iter().flatten().all(|at| at[1] == 7.0));
+    }
+
+    /// Fails for a legend that ends below the picture: the height of a PNG file stands in its bytes 20 to 23.
+    #[test]
+    fn the_legend_has_room() {
+        let axis = Axis { name: "x", scale: Scale::Linear };
+        let height = |count: usize| {
+            let series = vec![Series::default(); count];
+            let chart = Chart { title: "t", caption: "c", x: axis, y: axis, series: &series };
+            let png = chart.to_png().unwrap();
+            u32::from_be_bytes([png[20], png[21], png[22], png[23]])
+        };
+        assert_eq!(height(17), SIZE[1] as u32);
+        assert!(f64::from(height(40)) > PLOT.top + 40.0 * LINE);
     }
 
     /// A program that took logarithms of all there is would fail here, for want of a curve, or of a

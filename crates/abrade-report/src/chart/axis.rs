@@ -75,11 +75,13 @@ impl Axis<'_> {
 }
 
 impl Range {
-    /// Where `value` stands, as a share of the axis.
+    /// Where `value` stands, as a share of the axis; below all others on a logarithmic one if it has no place.
     pub(super) fn share(self, value: f64) -> f64 {
         match self {
             Self::Linear([low, high]) => (value - low) / (high - low),
-            Self::Log([low, high]) => (value.log10() - f64::from(low)) / f64::from(high - low),
+            Self::Log([low, high]) => {
+                (value.max(0.0).log10() - f64::from(low)) / f64::from(high - low)
+            }
         }
     }
 
@@ -133,6 +135,8 @@ mod tests {
         let range = LOG.range([3.0, 0.02, 99.0].into_iter());
         assert_eq!(range, Range::Log([-2, 2]));
         assert_eq!(range.share(1.0), 0.5);
+        // The lower end of a bar that reaches below zero.
+        assert_eq!(range.share(-1.0), f64::NEG_INFINITY);
         assert_eq!(LOG.range([10.0].into_iter()), Range::Log([1, 2]));
         assert_eq!(LOG.range(std::iter::empty()), Range::Log([0, 1]));
     }
