@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use abrade_report::atomic::process_name;
 use anyhow::Context;
 
 use crate::failure::Failure;
@@ -34,7 +35,7 @@ pub(crate) fn probe(folder: &Path) -> Result<(), Failure> {
 }
 
 fn try_file(folder: &Path) -> std::io::Result<()> {
-    let file = folder.join(format!(".abrade-{}", std::process::id()));
+    let file = folder.join(format!(".abrade-{}", process_name()));
     std::fs::write(&file, b"").and_then(|()| std::fs::remove_file(&file))
 }
 

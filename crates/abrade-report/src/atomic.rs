@@ -1,10 +1,13 @@
 //! Files that are whole or not there: written under a temporary name in the same folder, then
 //! renamed. A rename within a folder is one act of the file system; across folders it may not be.
 
+use std::collections::hash_map::RandomState;
 use std::fs::{self, File};
+use std::hash::{BuildHasher as _, Hasher as _};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::error::{FileAction, ReportError};
@@ -22,6 +25,14 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {
             Err(ReportError::File { action: FileAction::Write, path: path.to_owned(), source })
         }
     }
+}
+
+/// A name that no other process has, on this machine or on another one that writes to the same folder.
+pub fn process_name() -> &'static str {
+    static NAME: OnceLock<String> = OnceLock::new();
+    // Each process has random keys.
+    let random = || RandomState::new().build_hasher().finish();
+    NAME.get_or_init(|| format!("{}-{:016x}", process::id(), random()))
 }
 
 /// A file that grows under a temporary name, `<name>.<process>-<count>.partial`, until
@@ -46,7 +57,7 @@ impl PartialFile {
         let no_name = || ReportError::NoFileName { path: path.to_owned() };
         let mut name = path.file_name().ok_or_else(no_name)?.to_owned();
         let count = COUNT.fetch_add(1, Ordering::Relaxed);
-        name.push(format!(".{}-{count}.partial", process::id()));
+        name.push(format!(".{}-{count}.partial", process_name()));
         let partial = path.with_file_name(name);
         let file =
             File::create(&partial).map_err(ReportError::file(FileAction::Create, &partial))?;
