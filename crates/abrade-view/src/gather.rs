@@ -94,8 +94,10 @@ pub(crate) fn bodies(
     let names: Vec<String> = run.summary.bodies.keys().cloned().collect();
     let first = VtpFile::open(&files[0])?;
     let part: Vec<u32> = first.scalars("body")?.into_iter().map(|body| body as u32).collect();
+    // Before there is room made for so many.
+    let count = part.iter().max().map_or(0, |last| *last as usize + 1);
+    check_count(&files[0], "bodies", count, names.len())?;
     let moving = Moving::new(&first.points()?, part);
-    check_count(&files[0], "bodies", moving.len(), names.len())?;
     let mut instants = Vec::new();
     for path in files {
         let file = VtpFile::open(path)?;

@@ -174,7 +174,7 @@ function exaggerateBy(slider, output, run, bounds, stage) {
   const show = () => {
     const factor = most ** (Number(slider.value) / 100);
     const shown = factor < 10 ? Math.round(10 * factor) / 10 : Math.round(factor);
-    output.textContent = shown === 1 ? "true to scale" : `${number(shown).replace(/\.?0+$/, "")} times`;
+    output.textContent = shown === 1 ? "true to scale" : `${shown} times`;
     slider.setAttribute("aria-valuetext", output.textContent);
     stage?.exaggerate(shown);
   };
