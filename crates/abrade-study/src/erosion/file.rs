@@ -109,7 +109,8 @@ pub enum Plate {
     /// A plate that nothing has struck.
     #[default]
     Fresh,
-    /// The plate that the impacts before it have left, of this size.
+    /// The plate that the impacts before it have left, of this size. Intervals count impacts as independent, which
+    /// they are where few meet a crater; where many do, they are too narrow.
     Worn {
         /// Edge of the square over which impacts are spread evenly [m].
         #[serde(deserialize_with = "quantity::length")]

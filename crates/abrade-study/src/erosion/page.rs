@@ -160,7 +160,7 @@ impl Erosion {
         Some(Part::Table {
             heading: format!("Debris of {reference} over that of the grain at {}, by critical angle", degrees(*nearest)),
             note: "Debris is what faces cut at an angle of attack above the critical one, and chips. Factors of \
-                   shape in use for erosion by round against angular sand are 0.2 to 0.53."
+                   shape in use are those of E/CRC: 0.2 for round and 0.53 for rounded sand, 1 for angular."
                 .into(),
             head,
             rows: at.iter().map(row).collect(),
