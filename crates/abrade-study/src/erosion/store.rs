@@ -16,7 +16,7 @@ use super::impact::Impact;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Head {
     study: String,
-    /// Of everything that the study's results depend on.
+    /// Of the version, the study and its files.
     fingerprint: String,
     case: usize,
     grain: String,
@@ -108,7 +108,7 @@ impl Store {
     }
 }
 
-/// A number that changes with anything that the results depend on: version, study, files that it names.
+/// A number that changes with version, study and files that it names; builds of one version are alike to it.
 fn fingerprint(file: &StudyFile, beside: &Path) -> String {
     let mut hash = Fnv(0xcbf2_9ce4_8422_2325);
     hash.add(env!("CARGO_PKG_VERSION").as_bytes());

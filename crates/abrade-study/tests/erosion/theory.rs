@@ -7,8 +7,7 @@ const GRAINS: &str = "\"sphere\": (form: Sphere), \"cube\": (form: Polyhedron(ki
     \"tetrahedron\": (form: Polyhedron(kind: Tetrahedron))";
 const ANGLES: &str = "\"15 deg\", \"30 deg\", \"60 deg\", \"90 deg\"";
 
-// SHARES and RATIOS, with their tolerances, are the acceptance rows of the issue that asked for erosion studies:
-// means of the rigid-plastic theory over attitudes, computed apart from this program.
+// SHARES and RATIOS, with their tolerances, are the acceptance rows of the issue that asked for erosion studies.
 
 /// Share of the energy that goes into wear at the four angles, and how far from it a mean over 64
 /// attitudes may be.
