@@ -20,7 +20,8 @@ command -v slurmctld >/dev/null || { apt-get update -q && apt-get install -y -q 
 end() {
   kill "$(cat "$dir/slurmctld.pid" 2>/dev/null)" "$(cat "$dir/slurmd.pid" 2>/dev/null)" 2>/dev/null || true
 }
-trap end EXIT INT TERM
+trap end EXIT
+trap 'exit 1' INT TERM
 
 if ! munge -n </dev/null >/dev/null 2>&1; then
   [ -s /etc/munge/munge.key ] || { dd if=/dev/urandom bs=1 count=1024 of=/etc/munge/munge.key 2>/dev/null; chown munge: /etc/munge/munge.key; chmod 400 /etc/munge/munge.key; }

@@ -108,6 +108,10 @@ const RARE: [u64; 10] = [819, 2573, 4391, 4925, 6642, 7857, 10787, 17955, 18333,
 fn extremes_of_rare_kinds() {
     let findings: Vec<_> = RARE.into_iter().flat_map(|number| findings(number, 1)).collect();
     assert_lawful(&findings);
+    for finding in findings {
+        // They are within 0.4 %.
+        assert!(finding.numerical < 0.01, "{}: {:e}", finding.case.number, finding.numerical);
+    }
 }
 
 /// A number from the environment.
