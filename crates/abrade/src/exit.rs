@@ -83,21 +83,20 @@ impl Integrator {
 
     /// True for a body that has been brought to rest and that no spring pushes out again.
     pub(crate) fn has_stopped(&self, body: &Body, surfaces: &[Placed<'_>]) -> bool {
+        let little = STOPPED * self.energy_before;
         self.touched
-            && self.relative_energy(body, surfaces) < STOPPED * self.energy_before
-            && (self.contacts.iter().all(Contact::is_rigid) || self.is_unsprung())
+            && self.relative_energy(body, surfaces) < little
+            && (self.contacts.iter().all(Contact::is_rigid) || self.is_unsprung(little))
     }
 
-    /// True while no spring pushes the body, be it under a column.
-    fn is_unsprung(&self) -> bool {
+    /// True while no spring pushes the body, and what columns do would give it `little` [J] at most
+    /// in a step: springs under columns push it out again where it turns.
+    fn is_unsprung(&self, little: f64) -> bool {
         let zero = Vector3::zeros();
-        let loaded = |contact: &Contact| match contact {
-            Contact::Columns(columns) => columns.elastic() > 0.0,
-            Contact::Springs(_) | Contact::Mutual(_) => false,
-        };
+        let kick = self.pull.force * self.next_dt;
         self.pull.spring_force == zero
             && self.pull.spring_torque == zero
-            && !self.contacts.iter().any(loaded)
+            && 0.5 * kick.norm_squared() * self.dynamics.inverse_mass <= little
     }
 
     /// Kinetic energy of a body over the material that it leans on most [J].

@@ -18,7 +18,15 @@ fn every_scene_runs_and_its_energies_close() {
         assert_eq!(summary["complete"], true, "{name}");
         if !summary["energy"].is_null() {
             let part = |key: &str| at(&summary, &format!("energy.{key}"));
-            let kept = ["kinetic_J", "elastic_J", "friction_J", "wear_J", "damping_J", "history_J"];
+            let kept = [
+                "kinetic_J",
+                "elastic_J",
+                "friction_J",
+                "wear_J",
+                "damping_J",
+                "history_J",
+                "adhesion_J",
+            ];
             let sum: f64 = kept.iter().map(|key| part(key)).sum();
             let put_in = part("initial_J") + part("external_work_J").abs();
             let gap = part("initial_J") + part("external_work_J") - sum - part("numerical_J");
