@@ -88,10 +88,22 @@ fn write_digest(
             work if work.abs() <= NOTHING * (energy.initial + energy.wear) => String::new(),
             work => format!(" and {work:.4e} J of work on it"),
         };
+        let others = [
+            ("springs", energy.elastic),
+            ("damping", energy.damping),
+            ("history", energy.history),
+            ("adhesion", energy.adhesion),
+        ];
+        let scale = energy.initial + energy.external_work.abs();
+        let others: String = others
+            .into_iter()
+            .filter(|(_, part)| part.abs() > NOTHING * scale)
+            .map(|(name, part)| format!("{name} {part:.4e}, "))
+            .collect();
         writeln!(
             out,
             "  energy  {:.4e} J at the start{work}: kinetic {:.4e}, wear {:.4e}, friction {:.4e}, \
-             numerical {:.1e}",
+             {others}numerical {:.1e}",
             energy.initial, energy.kinetic, energy.wear, energy.friction, energy.numerical
         )?;
     }
