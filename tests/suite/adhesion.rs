@@ -75,17 +75,14 @@ fn a_sphere_is_pulled_off_with_two_pi_w_r() {
     let range = 1e-2 * RADIUS;
     let width = (2.0 * RADIUS * range).sqrt();
     let shape = Shape::ball(RADIUS).expect("a ball");
-    let hertz = |pitch: f64| ElasticLaw::HertzNodes {
-        node_radius: pitch,
-        convention: HertzConvention::RigidBody,
-    };
-    let foundation = |_: f64| ElasticLaw::Foundation { stiffness: Some(1e16) };
-    let elastics: [(&str, &dyn Fn(f64) -> ElasticLaw, f64); 3] = [
-        ("foundation", &foundation, 2.0),
-        ("foundation like JKR", &foundation, 1.5),
-        ("hertz", &hertz, 2.0),
-    ];
-    for (name, elastic, scale) in elastics {
+    for (name, scale) in [("foundation", 2.0), ("foundation like JKR", 1.5), ("hertz", 2.0)] {
+        let elastic = |pitch: f64| match name {
+            "hertz" => ElasticLaw::HertzNodes {
+                node_radius: pitch,
+                convention: HertzConvention::RigidBody,
+            },
+            _ => ElasticLaw::Foundation { stiffness: Some(1e16) },
+        };
         let found = [5.0, 10.0, 20.0].map(|pitches| {
             let pitch = width / pitches;
             // A node of the paper is a sphere of its own.
