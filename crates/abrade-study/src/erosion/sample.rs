@@ -25,7 +25,7 @@ pub struct Sample {
     pub place: [f64; 2],
     /// The way it flies, from the x axis of the plate [rad].
     pub azimuth: f64,
-    /// How large the grain is: a normal deviate of its logarithm, cut off at [`CUT`] on either side [-].
+    /// How large the grain is: a normal deviate of its logarithm, cut off at 2.5 on either side [-].
     pub deviate: f64,
 }
 
