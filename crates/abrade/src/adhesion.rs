@@ -322,6 +322,9 @@ impl Integrator {
         loads: &Loads,
         drawn: &Vector3<f64>,
     ) -> f64 {
+        if self.glue.is_empty() {
+            return f64::INFINITY;
+        }
         let step = STEP * self.eta;
         let drawn = drawn.norm() * self.dynamics.inverse_mass;
         let limit = |(glue, placed): (&Option<Glue>, &Placed<'_>)| {

@@ -116,7 +116,9 @@ impl Integrator {
         let springs = &trial.springs;
         self.kick(body, loads, &springs.force, &springs.torque, 0.5 * dt, &mut state);
         self.kick_carriers(surfaces, &state, 0.5 * dt);
-        self.react(&state, |answer| answer.drawn);
+        if !self.glue.is_empty() {
+            self.react(&state, |answer| answer.drawn);
+        }
         let gained = self.give_back();
         let toll = &trial.toll;
         // The dashpots in halves around the springs: work at the mean velocity of the step.

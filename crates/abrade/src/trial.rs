@@ -128,9 +128,14 @@ impl Integrator {
         self.kick(body, loads, &self.pull.spring_force, &self.pull.spring_torque, half, &mut state);
         let kicked = state;
         let swept = self.swept_prediction(body, surfaces, half);
-        let drawn = self.pull.drawn * half;
-        state.velocity += swept.velocity + self.dynamics.accelerate(&drawn.force);
-        state.spin += swept.spin + self.dynamics.turn(&state.rotation, &drawn.torque);
+        state.velocity += swept.velocity;
+        state.spin += swept.spin;
+        let adheres = !self.glue.is_empty();
+        if adheres {
+            let drawn = self.pull.drawn * half;
+            state.velocity += self.dynamics.accelerate(&drawn.force);
+            state.spin += self.dynamics.turn(&state.rotation, &drawn.torque);
+        }
         self.ride(body, surfaces, dt, swept.share);
         let (velocity, predicted) = (state.velocity, state.spin);
         let spin = self.dynamics.drift(&mut state, dt);
@@ -149,7 +154,9 @@ impl Integrator {
         let surfaces = if flight { &[] } else { surfaces };
         let mut trial = self.ask(body, surfaces, &state, Course { velocity, spin, dt });
         // Adhesion works along the way of the step: it takes its place between the kicks.
-        self.apply(&trial.drawn.push, &mut trial.state);
+        if adheres {
+            self.apply(&trial.drawn.push, &mut trial.state);
+        }
         if self.is_damped {
             self.damp(surfaces, &trial);
         }
