@@ -1,6 +1,7 @@
 //! Tests of the whole: physics against references that this project did not write.
 
 mod adhesion;
+mod archard;
 mod closed;
 mod convergence;
 mod drive;

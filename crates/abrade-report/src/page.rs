@@ -71,6 +71,7 @@ fn surfaces(summary: &Summary) -> String {
             ("Wear volume", quantity(s.wear_volume, "m³")),
             ("by normal flow", quantity(s.wear_volume_normal, "m³")),
             ("by lateral flow", quantity(s.wear_volume_lateral, "m³")),
+            ("by slip under load", quantity(s.wear_volume_archard, "m³")),
             ("Debris", quantity(s.removed_volume, "m³")),
             ("Chips", quantity(s.chip_volume, "m³")),
             ("Largest depth", quantity(s.max_depth, "m")),

@@ -106,6 +106,9 @@ pub struct SurfaceSummary {
     /// Part displaced by the lateral flow [m3].
     #[serde(rename = "wear_volume_lateral_m3")]
     pub wear_volume_lateral: f64,
+    /// Part lost to slip under load, by Archard's law [m3].
+    #[serde(rename = "wear_volume_archard_m3", default)]
+    pub wear_volume_archard: f64,
     /// Debris, by the surface's removal rule [m3].
     #[serde(rename = "removed_volume_m3")]
     pub removed_volume: f64,
@@ -292,6 +295,7 @@ impl SurfaceSummary {
             wear_volume,
             wear_volume_normal: worn.normal,
             wear_volume_lateral: worn.lateral,
+            wear_volume_archard: worn.archard,
             removed_volume: worn.removed,
             chip_volume: worn.chip,
             max_depth: nodes.depth.iter().copied().fold(0.0, f64::max),

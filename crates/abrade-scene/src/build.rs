@@ -136,6 +136,7 @@ impl Checked {
             removal: surface.removal.clone(),
             restitution: surface.restitution,
             adhesion: surface.adhesion.clone(),
+            archard: surface.archard.clone(),
         };
         let stand_in = StandIn::of(&surface.geometry);
         let mesh = self.meshes.get(name);

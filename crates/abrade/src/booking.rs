@@ -126,7 +126,7 @@ impl Integrator {
         ledger.elastic = elastic;
         ledger.external_work += work;
         ledger.friction += springs.friction + toll.flow.friction + toll.spring.friction;
-        ledger.wear += springs.wear + toll.wear;
+        ledger.wear += springs.wear + toll.archard + toll.wear;
         ledger.history += springs.history + toll.lost - left;
         ledger.adhesion += adhesion;
     }

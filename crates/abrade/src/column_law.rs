@@ -32,6 +32,8 @@ pub(crate) struct ColumnLaw {
     material_overlap: f64,
     /// g_y of the softest node [m].
     pub yield_overlap: f64,
+    /// K / H [1/Pa] of Archard's law; zero without it.
+    wear_rate: f64,
 }
 
 /// What a column needs to know of the step.
@@ -62,6 +64,9 @@ pub(crate) struct Cut {
     pub attack: f64,
     /// Compression of the spring at the end [m].
     pub squeeze: f64,
+    /// Height that Archard's law takes from the solid below the deep end, and where that begins [m].
+    pub archard: f64,
+    pub level: f64,
 }
 
 /// Sums over the pieces taken from a column, weighted by their lengths.
@@ -70,6 +75,8 @@ struct Taken {
     length: f64,
     lateral: f64,
     attack: f64,
+    /// Way that their faces slid over them times their force [N m], for Archard's law.
+    rubbed: f64,
 }
 
 impl ColumnLaw {
@@ -90,6 +97,7 @@ impl ColumnLaw {
             stiffness,
             material_overlap: hardness / stiffness,
             yield_overlap: surface.least_hardness() / stiffness,
+            wear_rate: laws.archard.as_ref().map_or(0.0, |archard| archard.rate(material)),
         }
     }
 
@@ -147,17 +155,26 @@ impl ColumnLaw {
         }
         let flows = flow.length > 0.0;
         if yield_overlap > 0.0 {
+            let level = if flows { low } else { column.level_below(low) };
             let after = match flows {
                 // The deep end lies in the material of other columns.
                 _ if low < -step.own => 0.0,
                 true => yield_overlap,
-                false => {
-                    let over = column.level_below(low) - span.low;
-                    over.clamp(0.0, yield_overlap)
-                }
+                false => (level - span.low).clamp(0.0, yield_overlap),
             };
-            self.squeeze::<RUBS>(step, slot, &span, [column.squeeze, after], flows, toll);
+            let squeezes = [column.squeeze, after];
+            let force = self.squeeze::<RUBS>(step, slot, &span, squeezes, flows, toll);
             cut.squeeze = after;
+            if self.wear_rate > 0.0 {
+                let arm = slot.x + slot.n * span.low - step.middle;
+                let rubbed = flow.rubbed + force * slide(step, &span.deep_normal, &arm);
+                cut.archard = self.wear(slot, squeezes, rubbed);
+                cut.level = level;
+                cut.squeeze = (after - cut.archard).max(0.0);
+                let worn_off = self.stored(slot.area, after) - self.stored(slot.area, cut.squeeze);
+                toll.elastic -= worn_off;
+                toll.archard += worn_off;
+            }
         }
         if flows {
             if HEADS {
@@ -201,6 +218,9 @@ impl ColumnLaw {
             let force = energy / entry.displacement;
             self.press::<RUBS>(step, &entry.normal, &arm, force, &mut toll.flow);
             flow.length += length;
+            if self.wear_rate > 0.0 {
+                flow.rubbed += force * slide(step, &entry.normal, &arm);
+            }
             if HEADS {
                 flow.lateral += lateral * length;
                 flow.attack += entry.normal.dot(&step.heading) * length;
@@ -221,8 +241,7 @@ impl ColumnLaw {
         let mut pull = -normal * force;
         if RUBS {
             let friction = self.price.friction;
-            let velocity = step.motion.velocity + step.motion.spin.cross(arm);
-            let slip = velocity - normal * velocity.dot(normal);
+            let slip = slip(step, normal, arm);
             let speed = slip.norm();
             if speed > 0.0 {
                 pull -= slip * (friction * force / speed);
@@ -234,7 +253,8 @@ impl ColumnLaw {
         push.torque += arm.cross(&impulse);
     }
 
-    /// The spring below the deep end, compressed from `before` to `after` [m].
+    /// The spring below the deep end, compressed from `before` to `after` [m]. Returns its force in
+    /// the mean over the step [N].
     fn squeeze<const RUBS: bool>(
         &self,
         step: &Step<'_>,
@@ -243,9 +263,9 @@ impl ColumnLaw {
         [before, after]: [f64; 2],
         flows: bool,
         toll: &mut Toll,
-    ) {
+    ) -> f64 {
         if before == 0.0 && after == 0.0 {
-            return;
+            return 0.0;
         }
         let change = self.stored(slot.area, after) - self.stored(slot.area, before);
         let cosine = (-span.deep_normal.dot(&slot.n)).max(STEEP);
@@ -264,6 +284,14 @@ impl ColumnLaw {
         toll.elastic += change;
         toll.stiffness += self.stiffness * slot.area / (cosine * cosine);
         self.press::<RUBS>(step, &span.deep_normal, &arm, force, &mut toll.spring);
+        force
+    }
+
+    /// What Archard's law takes from a column [m], which forces have `rubbed` [N m]: no more than its
+    /// spring was pressed in.
+    fn wear(&self, slot: &Slot, [before, after]: [f64; 2], rubbed: f64) -> f64 {
+        let loss = self.wear_rate / f64::from(slot.factor) * rubbed / slot.area;
+        loss.min(before.max(after))
     }
 }
 
@@ -302,6 +330,19 @@ impl ColumnLaw {
     }
 }
 
+/// Velocity of a face of `normal` at `arm` along itself [m/s].
+#[inline]
+fn slip(step: &Step<'_>, normal: &Vector3<f64>, arm: &Vector3<f64>) -> Vector3<f64> {
+    let velocity = step.motion.velocity + step.motion.spin.cross(arm);
+    velocity - normal * velocity.dot(normal)
+}
+
+/// Way of a face of `normal` at `arm` along itself [m].
+#[inline]
+fn slide(step: &Step<'_>, normal: &Vector3<f64>, arm: &Vector3<f64>) -> f64 {
+    slip(step, normal, arm).norm() * step.motion.dt
+}
+
 /// Only after a blocked step: the deep end pays; a receding one opposes the motion.
 fn blocked_entry(step: &Step<'_>, span: &Span, arm: &Vector3<f64>) -> Entry {
     let moved = (step.motion.velocity + step.motion.spin.cross(arm)) * step.motion.dt;
@@ -320,6 +361,10 @@ impl ColumnLaw {
         let priced = positive(hardness) && not_negative(shear_hardness.unwrap_or(0.0));
         let overlaps = [self.material_overlap, self.yield_overlap];
         let sprung = self.stiffness > 0.0 && overlaps.into_iter().all(not_negative);
-        require(priced && not_negative(friction) && sprung, "the laws of columns are out of range")
+        let rubbed = not_negative(self.wear_rate);
+        require(
+            priced && not_negative(friction) && sprung && rubbed,
+            "the laws of columns are out of range",
+        )
     }
 }

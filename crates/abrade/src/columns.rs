@@ -292,6 +292,12 @@ impl Columns {
             let index = cut.index as usize;
             let (slot, column) = (&self.candidates.slots[index], &mut self.columns[index]);
             column.squeeze = cut.squeeze;
+            if cut.archard > 0.0 {
+                column.dig(&[cut.level - cut.archard, cut.level], 1.0);
+                surface.sink(slot.id, cut.archard);
+                surface.gain.archard += slot.area * cut.archard;
+                surface.gain.removed += slot.area * cut.archard;
+            }
             if cut.squeeze > 0.0 {
                 // The body may come back to where it was when the candidates were collected.
                 (self.opens[index], self.least_gap) = (PRESSED, Some(0.0));

@@ -60,6 +60,12 @@ impl Contact {
                        Foundation, or HertzNodes",
             });
         }
+        if rigid && laws.archard.is_some() {
+            return Err(PhysicsError::Unsupported {
+                what: "Archard's law asks for the pressure below a body that slides, and Rigid has \
+                       none: take Foundation, or HertzNodes",
+            });
+        }
         let hertz = matches!(laws.elastic, ElasticLaw::HertzNodes { .. });
         if hertz && shape.has_faces() && !surface.is_flat() {
             return Err(PhysicsError::Unsupported {

@@ -15,6 +15,9 @@ pub(crate) trait Flow {
     /// True where the body's heading counts.
     const HEADS: bool;
 
+    /// True where it counts how far the body slides over a node without friction.
+    const SLIDES: bool = false;
+
     /// The law of a node whose hardness is `factor` times that of the material.
     fn times(&self, factor: f64) -> Self;
 
@@ -193,9 +196,9 @@ impl<L: LateralGeometry> Flow for CapozzaHanley<L> {
                 true => sink_aside(normal, &now),
                 false => (0.0, now),
             };
-            return (Drop { normal, lateral }, now);
+            return (Drop { normal, lateral, archard: 0.0 }, now);
         }
-        (Drop { normal, lateral }, now)
+        (Drop { normal, lateral, archard: 0.0 }, now)
     }
 
     #[inline(always)]
@@ -274,7 +277,7 @@ impl Flow for NormalPressure {
             sunk = sink_to_another_piece(node, start, out_of_contact, excess);
         }
         let (normal, now) = sunk;
-        (Drop { normal, lateral: 0.0 }, now)
+        (Drop { normal, ..Drop::default() }, now)
     }
 
     #[inline(always)]

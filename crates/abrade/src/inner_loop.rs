@@ -190,12 +190,12 @@ impl Books for Ledger {
         let mean = |is_open: bool, before: f64, after: f64| {
             if is_open { 0.5 * (before + after) } else { after }
         };
-        let Drop { normal, lateral } = spring.drop;
+        let Drop { normal, lateral, archard } = spring.drop;
         let opened = old.drop.normal > 0.0 || old.excess.normal > 0.0;
         let aside = old.drop.lateral > 0.0 || old.excess.lateral > 0.0;
         let work = mean(opened, old.normal_load, k.normal_load) * normal
             + mean(aside, old.normal_load, k.normal_load) * lateral;
-        self.wear += work;
+        self.wear += work + k.normal_load.max(0.0) * archard;
         if F::FACE_PRESSURE && E::RUBS {
             let pressed = k.normal_force * k.cosine;
             let before = pressed + old.excess.normal - spring.excess.normal;

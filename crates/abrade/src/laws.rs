@@ -3,7 +3,6 @@
 
 use crate::error::ParameterError;
 use crate::material::Material;
-use crate::surface::Worn;
 
 /// Elastic part of the contact, per node.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,6 +112,29 @@ impl Adhesion {
     }
 }
 
+/// Wear of a surface that bodies slide over, K F s / H of volume for a load F that slips by s (Archard,
+/// Journal of Applied Physics 24 (1953) 981), beside its flow: the part of the hardness that a load
+/// does not exceed. Under friction s is the slip of the node's tangential spring, so a body that
+/// sticks, or rolls, wears nothing. It takes springs: `Foundation` or `HertzNodes`.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Deserialize, schemars::JsonSchema))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "state", derive(serde::Serialize))]
+pub struct Archard {
+    /// K [-], above 0 and at most 1: of V = K F s / H. Texts that write V = K F s / (3 H) have three
+    /// times this one.
+    pub coefficient: f64,
+}
+
+impl Archard {
+    /// Every value outside its range.
+    pub fn check(&self) -> Vec<ParameterError> {
+        let positive = ParameterError::positive("coefficient", self.coefficient);
+        let most = || ParameterError::within("coefficient", self.coefficient, 0.0, 1.0);
+        positive.or_else(most).into_iter().collect()
+    }
+}
+
 /// Flow part: when a node sinks, and by how much.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, schemars::JsonSchema))]
@@ -175,19 +197,9 @@ pub const ATTACK_BIN: f64 = std::f64::consts::FRAC_PI_2 / ATTACK_BINS as f64;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Debris {
     /// Share that leaves.
-    share: f64,
+    pub share: f64,
     /// Which angle of attack it was swept at, where the rule asks.
-    bin: Option<usize>,
-}
-
-impl Worn {
-    /// Books a displaced `volume` [m3] of which `debris` tells what leaves.
-    pub(crate) fn take_off(&mut self, volume: f64, debris: &Debris) {
-        self.removed += volume * debris.share;
-        if let Some(bin) = debris.bin {
-            self.by_attack[bin] += volume;
-        }
-    }
+    pub bin: Option<usize>,
 }
 
 impl ElasticLaw {

@@ -9,7 +9,8 @@ use std::sync::Arc;
 use nalgebra::Point3;
 
 use crate::nodes::Nodes;
-use crate::surface::{Surface, Worn};
+use crate::surface::Surface;
+use crate::worn::Worn;
 
 /// Slots that a leaf begins with; a power of two, as all its numbers of slots.
 const SLOTS: usize = 128;

@@ -6,6 +6,7 @@
 #![warn(missing_docs)]
 
 mod adhesion;
+mod archard;
 mod balance;
 mod body;
 mod booking;
@@ -75,6 +76,7 @@ mod sweep;
 mod toll;
 mod trial;
 mod union_inertia;
+mod worn;
 
 pub use body::{Body, Inertia, State};
 pub use carried::{Carried, Grip, Met};
@@ -86,7 +88,8 @@ pub use encounter::{
 pub use error::{ParameterError, PhysicsError, ShapeError, SurfaceError};
 pub use hull::{Hull, Plane, Polyhedron, cuboid_vertices};
 pub use laws::{
-    ATTACK_BIN, ATTACK_BINS, Adhesion, ElasticLaw, FlowLaw, HertzConvention, Lateral, Removal,
+    ATTACK_BIN, ATTACK_BINS, Adhesion, Archard, ElasticLaw, FlowLaw, HertzConvention, Lateral,
+    Removal,
 };
 pub use layout::HexStrip;
 pub use leaf::Changes;
@@ -98,5 +101,6 @@ pub use nodes::Nodes;
 pub use press::{Hold, Pressed};
 pub use renewal::{RenewError, Renewal};
 pub use shape::{Ball, Piece, Shape};
-pub use surface::{NODE_LIMIT, SOLID_NODE_LIMIT, Surface, SurfaceLaws, Worn};
+pub use surface::{NODE_LIMIT, SOLID_NODE_LIMIT, Surface, SurfaceLaws};
 pub use union_inertia::{UnionInertia, overlapping_pairs};
+pub use worn::Worn;

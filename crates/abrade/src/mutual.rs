@@ -73,14 +73,15 @@ fn shares(first: f64, second: f64) -> [f64; 2] {
     }
 }
 
-/// True for two surfaces of which each can wear the other, by their laws: `Foundation`, without `Eq5`
-/// and restitution, and with one hardness for all of their nodes.
+/// True for two surfaces of which each can wear the other, by their laws: `Foundation`, without `Eq5`,
+/// restitution and Archard's law, and with one hardness for all of their nodes.
 pub fn can_meet(one: &Surface, other: &Surface) -> bool {
     [one, other].iter().all(|surface| {
         let laws = surface.laws();
         let sprung = matches!(laws.elastic, ElasticLaw::Foundation { .. });
         let literal = laws.flow == (FlowLaw::CapozzaHanley { lateral: Lateral::Eq5 });
-        sprung && !literal && laws.restitution >= 1.0 && surface.hardness_factors().is_none()
+        let plain = laws.restitution >= 1.0 && laws.archard.is_none();
+        sprung && !literal && plain && surface.hardness_factors().is_none()
     })
 }
 

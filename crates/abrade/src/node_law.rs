@@ -58,6 +58,16 @@ pub(crate) struct Excess {
 pub(crate) struct Drop {
     pub normal: f64,
     pub lateral: f64,
+    /// By Archard's law.
+    pub archard: f64,
+}
+
+impl Drop {
+    /// All of it [m].
+    #[inline(always)]
+    pub(crate) fn total(&self) -> f64 {
+        self.normal + self.lateral + self.archard
+    }
 }
 
 /// The body's motion over the step, at mid-step, in the surface's frame.
@@ -180,7 +190,7 @@ impl<E: Elastic, Q: Query> NodeStep<'_, E, Q> {
     /// How fast a force in proportion to F falls as the node sinks, per unit of that force
     /// [1/m]: (dF/dd) c / F.
     #[inline(always)]
-    fn relief(&self, at: &Loaded) -> f64 {
+    pub(crate) fn relief(&self, at: &Loaded) -> f64 {
         let Touch { coefficient, overlap, .. } = at.touch;
         self.elastic.normal_stiffness(coefficient, overlap, self.area) * at.cosine / at.normal_force
     }
@@ -296,6 +306,7 @@ pub(crate) fn resolve<E: Elastic, Q: Query, F: Flow>(
         // would let spin leak between the gates.
         step: motion.advance(&trial.arm, &m) * motion.dt,
         share,
+        slide: if F::SLIDES && !E::RUBS { (step - m * approach).norm() } else { 0.0 },
         was_in_contact,
         overlap_change: trial.overlap - old.overlap,
     };
@@ -324,6 +335,9 @@ pub(crate) struct Advance {
     /// dC = v* dt [m].
     pub step: Vector3<f64>,
     pub share: f64,
+    /// How far the body slides over the node, for a law that asks for it on a
+    /// surface without friction [m].
+    pub slide: f64,
     pub was_in_contact: bool,
     pub overlap_change: f64,
 }
@@ -339,8 +353,8 @@ fn transport(stretch: &Vector3<f64>, m: &Vector3<f64>) -> Vector3<f64> {
 impl Spring {
     pub(crate) fn is_finite(&self) -> bool {
         let Self { overlap, tangential_force, excess, normal_load, .. } = self;
-        let Drop { normal, lateral } = &self.drop;
-        let numbers = [overlap, tangential_force, normal_load, normal, lateral];
+        let Drop { normal, lateral, archard } = &self.drop;
+        let numbers = [overlap, tangential_force, normal_load, normal, lateral, archard];
         let numbers = numbers.into_iter().chain([&excess.normal, &excess.lateral]);
         finite(numbers.chain(self.stretch.iter())) && *overlap >= 0.0
     }

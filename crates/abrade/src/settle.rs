@@ -62,7 +62,7 @@ impl Integrator {
     /// What the springs under faces cost the body in a step, with their debt less what of it is
     /// `forgiven` [J].
     pub(crate) fn owed(&self, toll: &Toll, forgiven: f64) -> f64 {
-        toll.spring.friction + toll.elastic + toll.lost + self.short - forgiven
+        toll.spring.friction + toll.elastic + toll.archard + toll.lost + self.short - forgiven
     }
 
     /// Takes what columns cost from a body in `state` and the carriers, closed by the energy
@@ -152,7 +152,7 @@ impl Integrator {
             elastic,
             friction: self.booked.friction + toll.spring.friction + flow_friction,
             damping: half.map_or(0.0, |_| self.damping.dissipated),
-            wear: self.booked.wear + toll.wear * share,
+            wear: self.booked.wear + toll.archard + toll.wear * share,
             history: self.booked.history + toll.lost - forgiven - left,
             adhesion,
             external_work,

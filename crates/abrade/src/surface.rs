@@ -1,6 +1,5 @@
 //! A wear surface: nodes, laws, and what has been worn off.
 
-use std::ops::AddAssign;
 use std::sync::Arc;
 
 use nalgebra::{Point3, Vector3};
@@ -8,7 +7,7 @@ use nalgebra::{Point3, Vector3};
 use crate::error::{ParameterError, SurfaceError};
 use crate::grid::Grid;
 use crate::hardness::HardnessMap;
-use crate::laws::{ATTACK_BINS, Adhesion, ElasticLaw, FlowLaw, Lateral, Removal};
+use crate::laws::{Adhesion, Archard, ElasticLaw, FlowLaw, Lateral, Removal};
 use crate::layout::{HexStrip, Layout, strip_positions};
 use crate::leaf::{Changes, Leaf};
 use crate::material::Material;
@@ -18,6 +17,7 @@ use crate::renewal::Past;
 use crate::sunk::Sunk;
 #[cfg(feature = "state")]
 use crate::surface_state::SurfaceState;
+use crate::worn::Worn;
 
 /// Nodes a surface may have: indices are 32 bits wide, and a node takes about 90 bytes.
 pub const NODE_LIMIT: f64 = 2e8;
@@ -42,31 +42,8 @@ pub struct SurfaceLaws {
     pub restitution: f64,
     /// Adhesion to bodies; None for a surface that nothing sticks to.
     pub adhesion: Option<Adhesion>,
-}
-
-/// Volumes worn off a surface [m3], and its largest load.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
-pub struct Worn {
-    /// Displaced by the normal flow.
-    pub normal: f64,
-    /// Displaced by the lateral flow.
-    pub lateral: f64,
-    /// Broken off as overhangs, unpaid by the ledger.
-    pub chip: f64,
-    /// Debris, by the surface's removal rule.
-    pub removed: f64,
-    /// Displaced by faces of each angle of attack, from 0 on in steps of 5 degrees; chips left out. Only
-    /// where the removal rule asks for that angle, else zeros.
-    pub by_attack: [f64; ATTACK_BINS],
-    /// Largest depth of a node [m], renewals included.
-    pub max_depth: f64,
-    /// Largest total force along minus the normals [N].
-    pub peak_normal_force: f64,
-    /// Largest number of nodes that carried force at one instant.
-    pub peak_touching: usize,
-    /// Largest sum of the effective areas of nodes in normal flow [m2] (Eq. 19).
-    pub indented_area: f64,
+    /// Wear under what slides below the hardness; None for a surface that flow alone wears.
+    pub archard: Option<Archard>,
 }
 
 /// A surface that wears. The frame of a strip has its origin at the node nearest its middle; that
@@ -99,29 +76,6 @@ pub struct Surface {
     pub(crate) least_area: f64,
 }
 
-impl Worn {
-    /// W_V [m3] as the sum of its parts.
-    pub fn displaced(&self) -> f64 {
-        self.normal + self.lateral + self.chip
-    }
-}
-
-impl AddAssign for Worn {
-    fn add_assign(&mut self, other: Self) {
-        self.normal += other.normal;
-        self.lateral += other.lateral;
-        self.chip += other.chip;
-        self.removed += other.removed;
-        for (sum, more) in self.by_attack.iter_mut().zip(other.by_attack) {
-            *sum += more;
-        }
-        self.max_depth = self.max_depth.max(other.max_depth);
-        self.peak_normal_force = self.peak_normal_force.max(other.peak_normal_force);
-        self.peak_touching = self.peak_touching.max(other.peak_touching);
-        self.indented_area = self.indented_area.max(other.indented_area);
-    }
-}
-
 /// Restitution below which a surface is refused: the body would take some 1/restitution times as
 /// long to leave as it took to come.
 const LEAST_RESTITUTION: f64 = 0.01;
@@ -137,6 +91,7 @@ impl SurfaceLaws {
             removal: Removal::All,
             restitution: 1.0,
             adhesion: None,
+            archard: None,
         }
     }
 
@@ -155,6 +110,7 @@ impl SurfaceLaws {
             .chain(self.removal.check())
             .chain(Self::check_restitution(self.restitution))
             .chain(self.adhesion.iter().flat_map(|adhesion| adhesion.check(&self.material)))
+            .chain(self.archard.iter().flat_map(Archard::check))
             .map(SurfaceError::from)
             .collect();
         let law = match self.elastic {

@@ -9,7 +9,8 @@ use crate::nodes::Nodes;
 use crate::renewal::Past;
 use crate::state::{Fault, finite, not_negative, positive, require};
 use crate::sunk::Sunk;
-use crate::surface::{Surface, SurfaceLaws, Worn};
+use crate::surface::{Surface, SurfaceLaws};
+use crate::worn::Worn;
 
 /// Where the nodes lie.
 #[derive(serde::Serialize, serde::Deserialize)]
@@ -64,8 +65,9 @@ impl TryFrom<SurfaceState> for Surface {
         let SurfaceState { layout, pitch, laws, worn, gain, depth, past, sunk, hardness } = state;
         require(positive(pitch), "the pitch of a surface is out of range")?;
         require(laws.check().is_empty(), "the laws of a surface are out of range")?;
-        let whole =
-            |w: &Worn| finite(&[w.normal, w.lateral, w.chip, w.removed]) && finite(&w.by_attack);
+        let whole = |w: &Worn| {
+            finite(&[w.normal, w.lateral, w.archard, w.chip, w.removed]) && finite(&w.by_attack)
+        };
         let fine = whole(&worn) && whole(&gain) && depth.iter().all(|&depth| not_negative(depth));
         require(fine, "a depth is below zero or not finite")?;
         let mut surface = match layout {

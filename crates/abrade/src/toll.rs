@@ -22,6 +22,8 @@ pub(crate) struct Toll {
     pub spring: Push,
     pub elastic: f64,
     pub lost: f64,
+    /// Of what they took, the part that Archard's law wore off [J].
+    pub archard: f64,
     /// Sum of stiffnesses along the face normals [N/m].
     pub stiffness: f64,
     /// Sum of the effective areas of the columns that flow [m2].
@@ -55,6 +57,7 @@ impl Toll {
         self.wear += other.wear;
         self.elastic += other.elastic;
         self.lost += other.lost;
+        self.archard += other.archard;
         self.stiffness += other.stiffness;
         self.touching += other.touching;
     }

@@ -46,7 +46,7 @@ fn the_keys_are_those_of_the_interface_in_its_order() {
     let expected = "scene abrade complete precision resolver micro quasi_static lockstep \
         collision resolver_reasons wall_s setup_s simulated_s steps node_evaluations \
         surfaces plate nodes wear_volume_m3 \
-        wear_volume_normal_m3 wear_volume_lateral_m3 removed_volume_m3 chip_volume_m3 \
+        wear_volume_normal_m3 wear_volume_lateral_m3 wear_volume_archard_m3 removed_volume_m3 chip_volume_m3 \
         max_depth_m worn_nodes touching_nodes peak_normal_force_N indented_area_m2 wear_rate_m2 motion \
         bodies ball position_m rotation_xyzw velocity_m_s spin_rad_s restitution rebound_angle_deg \
         mean_force_N energy initial_J kinetic_J elastic_J friction_J wear_J damping_J \

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use abrade::{
-    ElasticLaw, FlowLaw, Lateral, NODE_LIMIT, ParameterError, SurfaceError, SurfaceLaws,
+    Archard, ElasticLaw, FlowLaw, Lateral, NODE_LIMIT, ParameterError, SurfaceError, SurfaceLaws,
     TriangleMesh,
 };
 
@@ -106,6 +106,7 @@ impl Checker<'_> {
             removal: surface.removal.clone(),
             restitution: surface.restitution,
             adhesion: surface.adhesion.clone(),
+            archard: surface.archard.clone(),
         };
         let literal = surface.flow == FlowLaw::CapozzaHanley { lateral: Lateral::Eq5 };
         if literal && surface.elastic == ElasticLaw::Rigid {
@@ -116,6 +117,12 @@ impl Checker<'_> {
             let message = "`adhesion` holds a body against its springs".to_owned();
             self.refuse(&path.join("adhesion"), message, "`Rigid` has none; take `Foundation()`");
         }
+        if surface.elastic == ElasticLaw::Rigid && surface.archard.is_some() {
+            let message = "`archard` asks for the pressure below a body that slides".to_owned();
+            self.refuse(&path.join("archard"), message, "`Rigid` has none; take `Foundation()`");
+        }
+        let errors = surface.archard.iter().flat_map(Archard::check);
+        self.ranges(&path.join("archard"), errors.map(Some));
         let errors = surface.adhesion.iter().flat_map(|adhesion| adhesion.check(material));
         self.ranges(&path.join("adhesion"), errors.map(Some));
         for error in laws.check() {

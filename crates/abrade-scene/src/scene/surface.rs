@@ -1,7 +1,7 @@
 //! Surfaces of a scene.
 
 use abrade::quantity::{self, Quantity};
-use abrade::{Adhesion, ElasticLaw, FlowLaw, Lateral, Removal};
+use abrade::{Adhesion, Archard, ElasticLaw, FlowLaw, Lateral, Removal};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -45,6 +45,9 @@ pub struct SceneSurface {
     /// Adhesion to bodies (default: nothing sticks).
     #[serde(default)]
     pub adhesion: Option<Adhesion>,
+    /// Wear by what slides over it below its hardness (default: none).
+    #[serde(default)]
+    pub archard: Option<Archard>,
     /// Where the origin of the surface's frame lies in the world [m].
     #[serde(default, deserialize_with = "vectors::length3")]
     #[schemars(with = "[Quantity; 3]")]

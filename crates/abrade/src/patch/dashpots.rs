@@ -42,7 +42,7 @@ impl Patch {
             if overlaps == [0.0; 2] {
                 continue;
             }
-            let x = slot.x - slot.n * (new.drop.normal + new.drop.lateral);
+            let x = slot.x - slot.n * new.drop.total();
             let touch = query.touch(&x, &slot.n);
             let cosine = -touch.contact_normal.dot(&slot.n);
             let [before, after] =

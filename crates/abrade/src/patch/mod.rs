@@ -18,7 +18,7 @@ use crate::ground::{Closed, Flat};
 use crate::inner_loop::Reaction;
 use crate::laws::ElasticLaw;
 use crate::ledger::Ledger;
-use crate::node_law::{Motion, Spring, stored};
+use crate::node_law::{Drop, Motion, Spring, stored};
 use crate::query::{BodyQuery, Contactor, Query, Touch};
 use crate::shape::Shape;
 #[cfg(feature = "state")]
@@ -287,20 +287,21 @@ impl Patch {
     pub(crate) fn commit(&mut self, surface: &mut Surface) {
         let part = self.share * self.own;
         for (i, spring) in self.new.iter().enumerate() {
-            let whole = spring.drop.normal + spring.drop.lateral;
+            let whole = spring.drop.total();
             if spring.overlap > 0.0 && whole > 0.0 {
                 let slot = &self.candidates.slots[i];
                 let debris = surface.laws.removal.debris(|| self.attack(slot));
                 let slot = &mut self.candidates.slots[i];
                 // In the contact a node stands for both sides: it goes all the way.
                 slot.x -= slot.n * whole;
-                let [normal, lateral] =
-                    [spring.drop.normal, spring.drop.lateral].map(|drop| part * drop);
-                let total = normal + lateral;
-                surface.sink(slot.id, total);
-                surface.gain.normal += slot.area * normal;
-                surface.gain.lateral += slot.area * lateral;
-                surface.gain.take_off(slot.area * total, &debris);
+                let Drop { normal, lateral, archard } = spring.drop;
+                let volume = part * slot.area;
+                surface.sink(slot.id, part * whole);
+                surface.gain.normal += volume * normal;
+                surface.gain.lateral += volume * lateral;
+                surface.gain.archard += volume * archard;
+                surface.gain.removed += volume * archard;
+                surface.gain.take_off(volume * (normal + lateral), &debris);
             }
         }
         std::mem::swap(&mut self.old, &mut self.new);

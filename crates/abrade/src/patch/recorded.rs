@@ -7,7 +7,7 @@ use crate::query::BodyQuery;
 impl Patch {
     /// Depth by which every candidate sank in the last trial [m].
     pub(crate) fn drops(&self) -> impl Iterator<Item = f64> + '_ {
-        self.new.iter().map(|spring| spring.drop.normal + spring.drop.lateral)
+        self.new.iter().map(|spring| spring.drop.total())
     }
 
     pub(crate) fn coefficient(&self) -> f64 {

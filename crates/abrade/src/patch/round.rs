@@ -3,6 +3,7 @@
 
 use std::marker::PhantomData;
 
+use crate::archard::Rubbed;
 use crate::elastic::{Elastic, Foundation, HertzNodes, Smooth};
 use crate::flow::{CapozzaHanley, Eq5, Flow, NormalPressure, Projected};
 use crate::ground::Ground;
@@ -77,6 +78,22 @@ impl Round<'_> {
     }
 
     fn run<Q: Query, G: Ground, E: Elastic, F: Flow>(
+        self,
+        query: &Q,
+        ground: G,
+        elastic: E,
+        flow: F,
+    ) -> Reaction {
+        match &self.laws.archard {
+            Some(archard) => {
+                let rate = archard.rate(&self.laws.material);
+                self.take(query, ground, elastic, Rubbed { flow, rate })
+            }
+            None => self.take(query, ground, elastic, flow),
+        }
+    }
+
+    fn take<Q: Query, G: Ground, E: Elastic, F: Flow>(
         self,
         query: &Q,
         ground: G,

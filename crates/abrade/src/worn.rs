@@ -1,0 +1,64 @@
+//! What has been worn off a surface, by cause.
+
+use std::ops::AddAssign;
+
+use crate::laws::{ATTACK_BINS, Debris};
+
+/// Volumes worn off a surface [m3], and its largest load.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
+pub struct Worn {
+    /// Displaced by the normal flow.
+    pub normal: f64,
+    /// Displaced by the lateral flow.
+    pub lateral: f64,
+    /// Lost to slip under load, by Archard's law; all of it is debris.
+    pub archard: f64,
+    /// Broken off as overhangs, unpaid by the ledger.
+    pub chip: f64,
+    /// Debris, by the surface's removal rule.
+    pub removed: f64,
+    /// Displaced by faces of each angle of attack, from 0 on in steps of 5 degrees; chips left out. Only
+    /// where the removal rule asks for that angle, else zeros.
+    pub by_attack: [f64; ATTACK_BINS],
+    /// Largest depth of a node [m], renewals included.
+    pub max_depth: f64,
+    /// Largest total force along minus the normals [N].
+    pub peak_normal_force: f64,
+    /// Largest number of nodes that carried force at one instant.
+    pub peak_touching: usize,
+    /// Largest sum of the effective areas of nodes in normal flow [m2] (Eq. 19).
+    pub indented_area: f64,
+}
+
+impl Worn {
+    /// W_V [m3] as the sum of its parts.
+    pub fn displaced(&self) -> f64 {
+        self.normal + self.lateral + self.archard + self.chip
+    }
+
+    /// Books a displaced `volume` [m3] of which `debris` tells what leaves.
+    pub(crate) fn take_off(&mut self, volume: f64, debris: &Debris) {
+        self.removed += volume * debris.share;
+        if let Some(bin) = debris.bin {
+            self.by_attack[bin] += volume;
+        }
+    }
+}
+
+impl AddAssign for Worn {
+    fn add_assign(&mut self, other: Self) {
+        self.normal += other.normal;
+        self.lateral += other.lateral;
+        self.archard += other.archard;
+        self.chip += other.chip;
+        self.removed += other.removed;
+        for (sum, more) in self.by_attack.iter_mut().zip(other.by_attack) {
+            *sum += more;
+        }
+        self.max_depth = self.max_depth.max(other.max_depth);
+        self.peak_normal_force = self.peak_normal_force.max(other.peak_normal_force);
+        self.peak_touching = self.peak_touching.max(other.peak_touching);
+        self.indented_area = self.indented_area.max(other.indented_area);
+    }
+}
