@@ -275,7 +275,8 @@ impl Columns {
             let Some(span) = span.filter(|_| !cut.lost) else { continue };
             if before != 0.0 || cut.squeeze != 0.0 {
                 let arm = slot.x + slot.n * span.low - self.middle;
-                dashpots.add(self.law.pressed(slot, &span, arm, [before, cut.squeeze]));
+                let squeezes = [before, cut.squeeze + cut.archard];
+                dashpots.add(self.law.pressed(slot, &span, arm, squeezes));
             }
         }
     }

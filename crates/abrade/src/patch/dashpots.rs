@@ -58,7 +58,7 @@ impl Patch {
                     [overlap, 0.0] => stored[0] / overlap,
                     _ => 0.5 * (before + after),
                 },
-                advance: new.overlap - old.overlap,
+                advance: new.overlap - old.overlap + new.drop.archard * cosine,
                 cap: slot.area * hardness * f64::from(slot.factor) / cosine.max(STEEP),
                 stored,
                 stiffness: elastic.normal_stiffness(touch.coefficient, new.overlap, slot.area),
