@@ -21,7 +21,12 @@ fn laws(coefficient: f64, friction: f64) -> SurfaceLaws {
 }
 
 fn body(shape: Shape, at: Point3<f64>) -> Body {
-    Body { shape, inertia: Inertia::of_ball(1e-3, 8e3), state: State::at(at), rotation_locked: true }
+    Body {
+        shape,
+        inertia: Inertia::of_ball(1e-3, 8e3),
+        state: State::at(at),
+        rotation_locked: true,
+    }
 }
 
 /// Slides `body` by `way` [m] along x, pressed down by `load` [N], in `count` increments.

@@ -130,6 +130,7 @@ impl Integrator {
         let swept = self.swept_prediction(body, surfaces, half);
         state.velocity += swept.velocity;
         state.spin += swept.spin;
+        self.foreseen = [swept.velocity, swept.spin];
         let adheres = !self.glue.is_empty();
         if adheres {
             let drawn = self.pull.drawn * half;
