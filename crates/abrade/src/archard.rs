@@ -36,7 +36,6 @@ impl Archard {
 impl<F: Flow> Flow for Rubbed<F> {
     const FACE_PRESSURE: bool = F::FACE_PRESSURE;
     const HEADS: bool = F::HEADS;
-    const SLIDES: bool = true;
 
     #[inline(always)]
     fn times(&self, factor: f64) -> Self {
@@ -52,7 +51,7 @@ impl<F: Flow> Flow for Rubbed<F> {
         old: &Spring,
     ) -> (Drop, Loaded) {
         let (drop, now) = self.flow.flow(node, start, advance, old);
-        let (archard, now) = self.wear(node, drop.normal + drop.lateral, &now, advance);
+        let (archard, now) = self.wear(node, drop.normal + drop.lateral, &now, advance.share);
         (Drop { archard, ..drop }, now)
     }
 
@@ -64,20 +63,17 @@ impl<F: Flow> Flow for Rubbed<F> {
 
 impl<F> Rubbed<F> {
     /// What a node loses [m] that has flowed by `flowed` [m], and the node after it. A node that was
-    /// touched in a part of the step counts as if all of it: so much as one that was left in a part of
+    /// touched in a `share` of the step counts as if all of it: so much as one that was left in a part of
     /// its last step counts too little, and the loads of all are those of the body.
     fn wear<E: Elastic, Q: Query>(
         &self,
         node: &NodeStep<'_, E, Q>,
         flowed: f64,
         now: &Loaded,
-        advance: &Advance,
+        share: f64,
     ) -> (f64, Loaded) {
-        let rate = self.rate / node.area;
-        let loss = |k: &Loaded| {
-            let slip = if E::RUBS { k.slip / advance.share } else { advance.slide };
-            rate * k.normal_force * slip
-        };
+        let rate = self.rate / (node.area * share);
+        let loss = |k: &Loaded| rate * k.normal_force * k.slip;
         let first = loss(now);
         if first <= 0.0 || now.cosine <= STEEP {
             return (0.0, *now);
@@ -92,6 +88,9 @@ impl<F> Rubbed<F> {
                 return (worn, at);
             }
             let slope = (before.1 - excess) / (worn - before.0);
+            if slope <= 0.0 || !slope.is_finite() {
+                break;
+            }
             before = (worn, excess);
             worn = (worn + excess / slope).clamp(0.0, LOSS_LIMIT * first);
         }

@@ -15,9 +15,6 @@ pub(crate) trait Flow {
     /// True where the body's heading counts.
     const HEADS: bool;
 
-    /// True where it counts how far the body slides over a node without friction.
-    const SLIDES: bool = false;
-
     /// The law of a node whose hardness is `factor` times that of the material.
     fn times(&self, factor: f64) -> Self;
 

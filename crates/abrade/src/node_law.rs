@@ -306,7 +306,6 @@ pub(crate) fn resolve<E: Elastic, Q: Query, F: Flow>(
         // would let spin leak between the gates.
         step: motion.advance(&trial.arm, &m) * motion.dt,
         share,
-        slide: if F::SLIDES && !E::RUBS { (step - m * approach).norm() } else { 0.0 },
         was_in_contact,
         overlap_change: trial.overlap - old.overlap,
     };
@@ -335,9 +334,6 @@ pub(crate) struct Advance {
     /// dC = v* dt [m].
     pub step: Vector3<f64>,
     pub share: f64,
-    /// How far the body slides over the node, for a law that asks for it on a
-    /// surface without friction [m].
-    pub slide: f64,
     pub was_in_contact: bool,
     pub overlap_change: f64,
 }

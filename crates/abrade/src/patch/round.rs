@@ -47,7 +47,8 @@ impl Round<'_> {
         ground: impl Ground,
         elastic: E,
     ) -> Reaction {
-        match self.laws.material.friction > 0.0 {
+        // Slip counts for Archard's law, friction or not.
+        match self.laws.material.friction > 0.0 || self.laws.archard.is_some() {
             true => self.with_elastic(query, ground, elastic),
             false => self.with_elastic(query, ground, Smooth(elastic)),
         }
@@ -84,24 +85,19 @@ impl Round<'_> {
         elastic: E,
         flow: F,
     ) -> Reaction {
-        match &self.laws.archard {
-            Some(archard) => {
-                let rate = archard.rate(&self.laws.material);
-                self.take(query, ground, elastic, Rubbed { flow, rate })
-            }
-            None => self.take(query, ground, elastic, flow),
-        }
-    }
-
-    fn take<Q: Query, G: Ground, E: Elastic, F: Flow>(
-        self,
-        query: &Q,
-        ground: G,
-        elastic: E,
-        flow: F,
-    ) -> Reaction {
         let Self { laws, motion, columns, ledger } = self;
         let friction = laws.material.friction;
+        if let (true, Some(archard)) = (E::RUBS, &laws.archard) {
+            let flow = Rubbed { flow, rate: archard.rate(&laws.material) };
+            let inner = InnerLoop { elastic, flow, query, friction, motion, ground };
+            // It keeps books always: fewer loops to build.
+            let mut books = Ledger::default();
+            let reaction = inner.run(columns, &mut books);
+            if let Some(ledger) = ledger {
+                *ledger = books;
+            }
+            return reaction;
+        }
         let inner = InnerLoop { elastic, flow, query, friction, motion, ground };
         match ledger {
             Some(ledger) => {
