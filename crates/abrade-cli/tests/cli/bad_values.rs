@@ -39,6 +39,42 @@ scene.ron: 1 problem, nothing was run
 }
 
 #[test]
+fn wear_faster_than_its_slip() {
+    refused(
+        "wear_faster_than_its_slip",
+        &[(r#"material: "plate","#, r#"material: "plate", archard: (coefficient: 1.5),"#)],
+        &[],
+        &[],
+        r#"error: `surfaces.plate.archard.coefficient` is out of range
+  --> scene.ron:10:49
+   |
+10 |       material: "plate", archard: (coefficient: 1.5),
+   |                                                 ^^^ must be between 0 and 1
+
+scene.ron: 1 problem, nothing was run
+"#,
+    );
+}
+
+#[test]
+fn wear_below_faces_without_springs() {
+    refused(
+        "wear_below_faces_without_springs",
+        &[("elastic: Foundation(),", "elastic: Rigid, archard: (coefficient: 1e-3),")],
+        &[],
+        &[],
+        r#"error: `archard` asks for the pressure below a body that slides
+  --> scene.ron:13:32
+   |
+13 |       elastic: Rigid, archard: (coefficient: 1e-3),
+   |                                ^^^^^^^^^^^^^^^^^^^ `Rigid` has none; take `Foundation()`
+
+scene.ron: 1 problem, nothing was run
+"#,
+    );
+}
+
+#[test]
 fn a_plain_number_that_is_not_finite() {
     refused(
         "a_plain_number_that_is_not_finite",

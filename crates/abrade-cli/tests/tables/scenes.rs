@@ -37,6 +37,23 @@ fn every_scene_runs_and_its_energies_close() {
     }
 }
 
+/// Fails for wear that is not K F s / H of the load that lies on a pin, and for an arm that gains height.
+#[test]
+fn slides_wear_by_their_load_and_their_way() {
+    let (load, hardness) = (20.0, 1e9);
+    let way = 2.0 * std::f64::consts::PI * 4e-3 * 4.0;
+    let disc = run("archard/pin_on_disc.ron", &[]);
+    let pin = run("archard/reciprocating_slide.ron", &[]);
+    let worn = |summary, name: &str| {
+        at(summary, &format!("surfaces.{name}.wear_volume_archard_m3")) * hardness / load
+    };
+    // The pin is carried along by its groove, by up to 3 of the 126 mm/s.
+    let ring = worn(&disc, "disc") / (1e-3 * way) - 1.0;
+    let cap = worn(&pin, "pin") / (1e-2 * 40e-3) - 1.0;
+    println!("ring {ring:.1e}, cap {cap:.1e}");
+    assert!((-2e-2..0.0).contains(&ring) && cap.abs() < 1e-4, "{ring:e} {cap:e}");
+}
+
 fn glob(folder: &str) -> Vec<std::path::PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![root().join(folder)];
