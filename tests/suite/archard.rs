@@ -112,6 +112,26 @@ fn a_flat_pin_wears_a_plate() {
     assert!(by_friction.abs() < 1e-9, "{by_friction:e}");
 }
 
+/// Fails for flow that takes a node to its cap before the loss lets its spring down: below the hardness
+/// it would flow for ever.
+#[test]
+fn a_load_just_below_the_hardness_does_not_flow() {
+    let (way, count, coefficient, node_radius) = (1e-3, 40, 0.02, 0.1e-3);
+    let (shape, _) = hull(&cuboid_vertices(&Vector3::new(4e-3, 4e-3, 1e-3)), 1.0);
+    let elastic = ElasticLaw::HertzNodes { node_radius, convention: HertzConvention::ElasticPair };
+    let laws = SurfaceLaws { elastic, ..laws(coefficient, 0.0) };
+    let strip = HexStrip { length: 1e-3, width: 1e-3, pitch: 0.1e-3, rest_area: None };
+    let mut plate = Surface::hex_strip(strip, laws).expect("a plate");
+    let load = 0.95 * HARDNESS * plate.nodes().rest_area.iter().sum::<f64>();
+    let mut pin = body(shape, Point3::new(0.0, 0.0, 1e-3 + node_radius));
+    slide(&mut pin, &mut plate, load, way, count);
+    let worn = plate.worn();
+    let depth = worn.archard / f64::from(count) * HARDNESS / load;
+    let miss = worn.archard * HARDNESS / (coefficient * load * way) - 1.0;
+    println!("{miss:.1e} at {depth:e} m an increment, flow {:e}", worn.normal);
+    assert!(miss.abs() < 1e-6 && worn.normal == 0.0, "{miss:e} {:e}", worn.normal);
+}
+
 /// Fails for flow that is worn again, and for wear that stops where nodes flow.
 #[test]
 fn a_ball_that_ploughs_wears_its_groove_as_well() {
@@ -134,7 +154,7 @@ fn a_ball_that_ploughs_wears_its_groove_as_well() {
     // The faces of the groove lean: their loads slide less far than the ball, and are more than its.
     assert!(share.abs() < 2e-2, "{share:e}");
     assert!(plain.archard == 0.0 && plain.displaced() > worn.archard, "{plain:?}");
-    assert!(flow > 0.5 && flow < 1.5 && twice.abs() < 1e-12, "{flow} {twice:e}");
+    assert!(flow > 0.5 && flow < 1.0 && twice.abs() < 1e-12, "{flow} {twice:e}");
 }
 
 /// Fails for energy that wear gives or takes unbooked, and for slip that wears what friction does not

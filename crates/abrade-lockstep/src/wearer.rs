@@ -1,7 +1,7 @@
 //! A body of the island that wears surfaces.
 
 use abrade::{
-    Body, Carried, EncounterSettings, Grip, Ledger, Loads, Met, PhysicsError, Placed, State,
+    Body, Carried, EncounterSettings, Grip, Ledger, Loads, Met, PhysicsError, Placed, State, Worn,
 };
 use nalgebra::{Translation3, Vector3};
 use rapier::dynamics::RigidBodyHandle;
@@ -36,7 +36,7 @@ pub struct Wearer {
     left: State,
     worn: Vec<f64>,
     /// Volumes displaced before a step [m3].
-    mark: Vec<f64>,
+    mark: Vec<Worn>,
     /// A node has flowed in the last step.
     pub(crate) wears: bool,
     /// Why its surfaces can follow it no further.
@@ -83,7 +83,7 @@ impl Wearer {
             impulse: Vector3::zeros(),
             contact_time: 0.0,
             worn: vec![0.0; lifts.len()],
-            mark: vec![0.0; lifts.len()],
+            mark: vec![Worn::default(); lifts.len()],
             wears: false,
             beyond: None,
             uses: Vec::new(),
@@ -203,14 +203,16 @@ impl Wearer {
         act: impl FnOnce(&mut Carried, &mut Body, &mut [Placed<'_>]) -> R,
     ) -> R {
         for (mark, &at) in self.mark.iter_mut().zip(&self.uses) {
-            *mark = surfaces[at].surface.worn().displaced();
+            *mark = surfaces[at].surface.worn();
         }
         let done = self.lowered(surfaces, act);
         self.wears = false;
         for ((worn, mark), &at) in self.worn.iter_mut().zip(&self.mark).zip(&self.uses) {
-            let gained = surfaces[at].surface.worn().displaced() - mark;
-            *worn += gained;
-            self.wears |= gained > 0.0;
+            let now = surfaces[at].surface.worn();
+            *worn += now.displaced() - mark.displaced();
+            // What slip rubs off does not keep a body that rests awake.
+            let flowed = |w: &Worn| w.normal + w.lateral + w.chip;
+            self.wears |= flowed(&now) > flowed(mark);
         }
         done
     }

@@ -50,10 +50,13 @@ pub(crate) struct Outcome {
     pub friction: f64,
 }
 
-/// True when no node can flow under `load` [N]: none bears more than all of it, and the least
+/// True when nothing is worn under `load` [N]: no node can flow, and nothing wears below that. None bears more than all of it, and the least
 /// that moves a node is its rest area times the smaller hardness. On a closed surface a few nodes at
 /// its edges stand for less than the area taken.
 pub(crate) fn holds(surface: &Surface, load: f64) -> bool {
+    if surface.laws().archard.is_some() {
+        return false;
+    }
     let material = &surface.laws().material;
     let hardness = surface.least_hardness() * material.shear_ratio.min(1.0);
     load * 1f64.hypot(material.friction) < hardness * surface.least_area()

@@ -27,7 +27,6 @@ use crate::shape::{Piece, Shape};
 use crate::state::{Fault, not_negative, positive, require};
 use crate::surface::{Surface, SurfaceLaws};
 use crate::toll::Push;
-use crate::trial::Trial;
 
 /// Way of a body in a step, in ranges times eta.
 const STEP: f64 = 0.5;
@@ -273,6 +272,16 @@ impl Glue {
 }
 
 impl Attraction {
+    /// Force and torque in the mean over a step of `dt` [s].
+    pub(crate) fn mean(&self, dt: f64) -> Grip {
+        Grip { force: self.push.impulse / dt, torque: self.push.torque / dt }
+    }
+
+    pub(crate) fn is_finite(&self) -> bool {
+        let Push { impulse, torque, .. } = &self.push;
+        impulse.iter().chain(torque).all(|x| x.is_finite())
+    }
+
     /// Adds that of another surface, whose frame is `pose`.
     pub(crate) fn add(&mut self, other: &Self, pose: &Isometry3<f64>) {
         let turned = other.grip.turned(pose);
@@ -336,18 +345,13 @@ impl Integrator {
 
     /// Makes the adhesion of the last trial that of the present instant. Returns the change of its
     /// energy, and the part of it that came of nodes that sank away [J].
-    pub(crate) fn adhere(
-        &mut self,
-        body: &Body,
-        surfaces: &[Placed<'_>],
-        trial: &Trial,
-    ) -> [f64; 2] {
+    pub(crate) fn adhere(&mut self, body: &Body, surfaces: &[Placed<'_>]) -> [f64; 2] {
         let pairs = self.glue.iter_mut().zip(surfaces);
         let commit = |(glue, placed): (&mut Option<Glue>, &Placed<'_>)| {
             glue.as_mut().map_or(0.0, |glue| glue.commit(placed.surface, &body.shape))
         };
         let added = pairs.map(commit).sum::<f64>();
-        [trial.drawn.energy + added, added]
+        [self.attraction.energy + added, added]
     }
 }
 

@@ -3,8 +3,8 @@
 //!
 //! A node of area a loses K F s / (a H) of its height, whatever its slope: the volume counts. F is the
 //! force along the face's normal, at the end of the step and after the loss, so that a hard spring
-//! under much slip is let down, not overshot. What the flow of the step takes comes first, and the
-//! force that is left wears: no volume is counted twice.
+//! under much slip is let down, not overshot. Of a node that flows as well the loss is a part of the
+//! way that its flow takes it: no volume is counted twice, and its load stays at the cap.
 
 use crate::elastic::Elastic;
 use crate::flow::Flow;
@@ -51,8 +51,11 @@ impl<F: Flow> Flow for Rubbed<F> {
         old: &Spring,
     ) -> (Drop, Loaded) {
         let (drop, now) = self.flow.flow(node, start, advance, old);
-        let (archard, now) = self.wear(node, drop.normal + drop.lateral, &now, advance.share);
-        (Drop { archard, ..drop }, now)
+        let flowed = drop.normal + drop.lateral;
+        let (worn, now) = self.wear(node, flowed, &now, advance.share);
+        let left = if flowed > worn { (flowed - worn) / flowed } else { 0.0 };
+        let (normal, lateral) = (drop.normal * left, drop.lateral * left);
+        (Drop { normal, lateral, archard: worn }, now)
     }
 
     #[inline(always)]
@@ -62,9 +65,9 @@ impl<F: Flow> Flow for Rubbed<F> {
 }
 
 impl<F> Rubbed<F> {
-    /// What a node loses [m] that has flowed by `flowed` [m], and the node after it. A node that was
-    /// touched in a `share` of the step counts as if all of it: so much as one that was left in a part of
-    /// its last step counts too little, and the loads of all are those of the body.
+    /// What a node loses [m], of which its flow has taken it `flowed` [m] down, and the node after it. A
+    /// node that was touched in a `share` of the step counts as if in all of it: so much as one that was
+    /// left in a part of its last step counts too little, and the loads of all are those of the body.
     fn wear<E: Elastic, Q: Query>(
         &self,
         node: &NodeStep<'_, E, Q>,
@@ -75,14 +78,16 @@ impl<F> Rubbed<F> {
         let rate = self.rate / (node.area * share);
         let loss = |k: &Loaded| rate * k.normal_force * k.slip;
         let first = loss(now);
-        if first <= 0.0 || now.cosine <= STEEP {
-            return (0.0, *now);
+        let slips = first > 0.0 && now.cosine > STEEP;
+        if !slips || first <= flowed {
+            return (if slips { first } else { 0.0 }, *now);
         }
-        // A secant from the force before the loss and a first step along its relief: the excess is
-        // nearly linear.
-        let (mut before, mut worn) = ((0.0, first), first / (1.0 + first * node.relief(now)));
+        // A secant from the force before the rest of the loss and a first step along its relief: the
+        // excess is nearly linear.
+        let (rest, relief) = (first - flowed, first * node.relief(now));
+        let (mut before, mut worn) = ((flowed, rest), flowed + rest / (1.0 + relief));
         for _ in 0..LOSS_STEPS {
-            let at = node.at(flowed + worn);
+            let at = node.at(worn);
             let excess = loss(&at) - worn;
             if excess.abs() <= LOSS * first {
                 return (worn, at);
@@ -92,8 +97,8 @@ impl<F> Rubbed<F> {
                 break;
             }
             before = (worn, excess);
-            worn = (worn + excess / slope).clamp(0.0, LOSS_LIMIT * first);
+            worn = (worn + excess / slope).clamp(flowed, LOSS_LIMIT * first);
         }
-        (worn, node.at(flowed + worn))
+        (worn, node.at(worn))
     }
 }

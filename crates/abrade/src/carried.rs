@@ -171,7 +171,7 @@ impl Carried {
         let trial = self.integrator.ask(body, surfaces, &end, Course { velocity, spin, dt });
         let mut state = body.state;
         let charge = self.integrator.charge(&trial.toll, 0.0, &mut state);
-        let drawn = trial.drawn();
+        let drawn = self.integrator.attraction.mean(dt);
         let swept = Grip {
             force: charge.impulse / dt + drawn.force,
             torque: charge.torque / dt + drawn.torque,
@@ -204,7 +204,7 @@ impl Carried {
         let course = Course { velocity, spin, dt };
         let trial = self.integrator.ask(body, surfaces, end, course);
         self.evaluations += trial.evaluations;
-        if !trial.is_finite() {
+        if !self.integrator.is_finite(&trial) {
             return Err(PhysicsError::NotFinite { time: dt });
         }
         let damping = match self.integrator.is_damped {

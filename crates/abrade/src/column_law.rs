@@ -62,8 +62,9 @@ pub(crate) struct Cut {
     /// Share of their length swept sideways, and the sine of the angle of attack.
     pub lateral: f64,
     pub attack: f64,
-    /// Compression of the spring at the end [m].
+    /// Compression of the spring at the end [m], and before Archard's law lets it down.
     pub squeeze: f64,
+    pub pressed: f64,
     /// Height that Archard's law takes from the solid below the deep end, and where that begins [m].
     pub archard: f64,
     pub level: f64,
@@ -164,11 +165,12 @@ impl ColumnLaw {
             };
             let squeezes = [column.squeeze, after];
             let force = self.squeeze::<RUBS>(step, slot, &span, squeezes, flows, toll);
-            cut.squeeze = after;
+            (cut.squeeze, cut.pressed) = (after, after);
             if self.wear_rate > 0.0 {
                 let arm = slot.x + slot.n * span.low - step.middle;
                 let rubbed = flow.rubbed + force * slide(step, &span.deep_normal, &arm);
-                cut.archard = self.wear(slot, squeezes, rubbed);
+                let own = (level + step.own).max(0.0);
+                cut.archard = self.wear(slot, squeezes, rubbed).min(own);
                 cut.level = level;
                 cut.squeeze = (after - cut.archard).max(0.0);
                 let worn_off = self.stored(slot.area, after) - self.stored(slot.area, cut.squeeze);
@@ -183,7 +185,7 @@ impl ColumnLaw {
             }
             toll.flow_area += slot.area / (-span.deep_normal.dot(&slot.n)).max(STEEP);
         }
-        let touches = flows || cut.squeeze > 0.0;
+        let touches = flows || cut.pressed > 0.0;
         toll.touching += usize::from(touches);
         (touches || column.squeeze > 0.0).then_some(cut)
     }
@@ -287,8 +289,9 @@ impl ColumnLaw {
         force
     }
 
-    /// What Archard's law takes from a column [m], which forces have `rubbed` [N m]: no more than its
-    /// spring was pressed in.
+    /// What Archard's law takes from a column [m] for the `rubbed` way of forces on it [N m]: no more
+    /// than its spring was pressed in, which bounds the slip of a step in which all of it counts to 2 g_y /
+    /// K. The force is that of the whole step, before the loss.
     fn wear(&self, slot: &Slot, [before, after]: [f64; 2], rubbed: f64) -> f64 {
         let loss = self.wear_rate / f64::from(slot.factor) * rubbed / slot.area;
         loss.min(before.max(after))

@@ -273,10 +273,9 @@ impl Columns {
             let (slot, before) = (&self.candidates.slots[index], self.columns[index].squeeze);
             let span = self.swept.span(&slot.x, &slot.n, f64::INFINITY);
             let Some(span) = span.filter(|_| !cut.lost) else { continue };
-            if before != 0.0 || cut.squeeze != 0.0 {
+            if before != 0.0 || cut.pressed != 0.0 {
                 let arm = slot.x + slot.n * span.low - self.middle;
-                let squeezes = [before, cut.squeeze + cut.archard];
-                dashpots.add(self.law.pressed(slot, &span, arm, squeezes));
+                dashpots.add(self.law.pressed(slot, &span, arm, [before, cut.pressed]));
             }
         }
     }
@@ -293,12 +292,6 @@ impl Columns {
             let index = cut.index as usize;
             let (slot, column) = (&self.candidates.slots[index], &mut self.columns[index]);
             column.squeeze = cut.squeeze;
-            if cut.archard > 0.0 {
-                column.dig(&[cut.level - cut.archard, cut.level], 1.0);
-                surface.sink(slot.id, cut.archard);
-                surface.gain.archard += slot.area * cut.archard;
-                surface.gain.removed += slot.area * cut.archard;
-            }
             if cut.squeeze > 0.0 {
                 // The body may come back to where it was when the candidates were collected.
                 (self.opens[index], self.least_gap) = (PRESSED, Some(0.0));
@@ -311,9 +304,14 @@ impl Columns {
                 let worn = &mut surface.gain;
                 worn.lateral += slot.area * total * cut.lateral;
                 worn.normal += slot.area * total * (1.0 - cut.lateral);
-                worn.chip += slot.area * broken;
-                worn.removed += slot.area * broken;
+                worn.break_off(slot.area * broken);
                 worn.take_off(slot.area * total, &debris);
+            }
+            if cut.archard > 0.0 {
+                let broken = column.dig(&[cut.level - cut.archard, cut.level], 1.0);
+                surface.sink(slot.id, cut.archard + broken);
+                surface.gain.rub_off(slot.area * cut.archard);
+                surface.gain.break_off(slot.area * broken);
             }
         }
         let (worn, toll) = (&mut surface.gain, &self.toll);
@@ -340,8 +338,7 @@ impl Columns {
             let standing = column.standing();
             if standing > 0.0 {
                 surface.sink(slot.id, standing);
-                surface.gain.chip += slot.area * standing;
-                surface.gain.removed += slot.area * standing;
+                surface.gain.break_off(slot.area * standing);
             }
             *column = Column::default();
         }

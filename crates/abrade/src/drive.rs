@@ -157,14 +157,14 @@ impl Driven {
             let mut trial = self.push(body, placed, down * increment);
             done.node_evaluations += trial.evaluations;
             let mut step = increment;
-            let over = load(trial.force()) - target;
+            let over = load(self.integrator.grip(&trial).force) - target;
             if over >= 0.0 {
                 let ends = [[0.0, load(self.force()) - target], [increment, over]];
                 let (sink, found) = self.find(body, placed, down, ends, target);
                 (step, trial) = (sink, found);
                 done.node_evaluations += trial.evaluations;
             }
-            let reached = load(trial.force()) >= (1.0 - LOAD) * target;
+            let reached = load(self.integrator.grip(&trial).force) >= (1.0 - LOAD) * target;
             depth += step;
             done.steps += 1;
             self.lead(body, placed, step, &trial);
@@ -259,7 +259,7 @@ impl Driven {
         let mut search = Search::new(target, |sink| {
             let trial = self.push(body, placed, down * sink);
             evaluations += trial.evaluations;
-            let over = -trial.force().dot(&down) - target;
+            let over = -self.integrator.grip(&trial).force.dot(&down) - target;
             asked = Some(trial);
             over
         });

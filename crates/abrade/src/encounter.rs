@@ -167,7 +167,8 @@ impl Encounter {
     /// on from its bytes lists its nodes and facets anew, and so may differ as that does.
     ///
     /// # Errors
-    /// As [`Encounter::new`]; laws other than `Foundation`, `Eq5`, or a restitution below one; a
+    /// As [`Encounter::new`]; laws other than `Foundation`, `Eq5`, Archard's law, or a restitution below
+    /// one; a
     /// skin that is not the surface of a solid within the body's shape.
     pub fn of_two(
         body: &Body,

@@ -6,7 +6,7 @@
 
 use nalgebra::Vector3;
 
-use crate::adhesion::Glue;
+use crate::adhesion::{Attraction, Glue};
 use crate::balance::Balance;
 use crate::body::Body;
 use crate::carrier::{Answer, Hand, Ride, flight_limit};
@@ -47,6 +47,9 @@ pub(crate) struct Integrator {
     pub(crate) contacts: Vec<Contact>,
     /// Adhesion of every contact; empty when no surface has any.
     pub(crate) glue: Vec<Option<Glue>>,
+    /// What adhesion did in the last trial.
+    #[cfg_attr(feature = "state", serde(skip))]
+    pub(crate) attraction: Attraction,
     /// Numbers of nodes of the surfaces that it was made with, and how often each had been renewed
     /// when it was last looked at.
     node_counts: Vec<usize>,
@@ -146,6 +149,7 @@ impl Integrator {
             dashpots: Dashpots::default(),
             contacts,
             glue,
+            attraction: Attraction::default(),
             node_counts,
             renewals,
             next_dt: 0.0,
@@ -328,11 +332,11 @@ impl Integrator {
             }
             let trial = self.trial(body, surfaces, loads, dt, flight);
             done.node_evaluations += trial.evaluations;
-            if !(trial.is_finite() && self.rides.iter().flatten().all(|r| r.end.is_finite())) {
+            if !(self.is_finite(&trial) && self.rides.iter().flatten().all(|r| r.end.is_finite())) {
                 return Err(PhysicsError::NotFinite { time: done.contact_time });
             }
             let omega = self.omega(&trial).max(self.damping.rate);
-            let drawn = self.adhesion_limit(body, surfaces, loads, &trial.drawn.grip.force);
+            let drawn = self.adhesion_limit(body, surfaces, loads, &self.attraction.grip.force);
             let allowed = (self.eta / omega).min(self.led_limit(body, surfaces)).min(drawn);
             if let Some(smaller) = rejected(&trial, dt, allowed) {
                 if dt < f64::MIN_POSITIVE / f64::EPSILON {

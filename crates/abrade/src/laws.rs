@@ -112,10 +112,12 @@ impl Adhesion {
     }
 }
 
-/// Wear of a surface that bodies slide over, K F s / H of volume for a load F that slips by s (Archard,
-/// Journal of Applied Physics 24 (1953) 981), beside its flow: the part of the hardness that a load
-/// does not exceed. Under friction s is the slip of the node's tangential spring, so a body that
-/// sticks, or rolls, wears nothing. It takes springs: `Foundation` or `HertzNodes`.
+/// Wear of a surface that bodies slide over, below its hardness too: K F s / H of volume for a load F
+/// that slips by s (Archard, Journal of Applied Physics 24 (1953) 981). Of a node that flows as well
+/// it is a part of the way that the flow takes it. On nodes that springs press s is the slip of their
+/// tangential springs: one that sticks wears nothing. Faces have none, and s is the way of the face along
+/// itself. It takes springs, `Foundation` or `HertzNodes`, and holds where K s of a step is below the
+/// yield overlap.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Deserialize, schemars::JsonSchema))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

@@ -96,7 +96,7 @@ impl Mutual {
         if !can_meet(surface, skin.surface) {
             return Err(PhysicsError::Unsupported {
                 what: "two surfaces that meet need the elastic law Foundation, a flow law for any \
-                       shape, no restitution, and one hardness each",
+                       shape, no restitution, no Archard's law, and one hardness each",
             });
         }
         let out = |x: &Point3<f64>| clearance(shape, &State::at(Point3::origin()), x);

@@ -58,7 +58,7 @@ impl Integrator {
         let search = Search::new(press.load, |sink| {
             let trial = self.push(body, placed, press, sink);
             evaluations += trial.evaluations;
-            let over = -trial.force().dot(&press.down) - press.load;
+            let over = -self.grip(&trial).force.dot(&press.down) - press.load;
             asked = Some(trial);
             over
         });
@@ -84,7 +84,7 @@ impl Integrator {
         let mut done = Advance { time: duration, contact_time: duration, ..Advance::default() };
         for i in 0..count as u64 {
             let trial = self.press(body, placed, press, scale)?;
-            if !trial.is_finite() {
+            if !self.is_finite(&trial) {
                 return Err(PhysicsError::NotFinite { time: i as f64 * dt });
             }
             done.node_evaluations += trial.evaluations;
@@ -263,7 +263,8 @@ mod tests {
         let (mut trials, mut least) = (0.0, f64::INFINITY);
         for i in 0..=count {
             let trial = integrator.press(&body, &placed, &press, scale).expect("a balance");
-            assert!((trial.force().z / load - 1.0).abs() < crate::balance::LOAD);
+            let force = integrator.grip(&trial).force;
+            assert!((force.z / load - 1.0).abs() < crate::balance::LOAD);
             integrator.lead(&mut body, &mut placed, &trial, [Vector3::zeros(); 2]);
             // The first one sinks where it stands, from nothing that it knows.
             if i > 0 {

@@ -105,8 +105,8 @@ impl Integrator {
 
     /// Energy that the kicks of `loads` have given over a trial more than their work on its way [J]:
     /// what columns do places the end of the step, ahead of the balance in which they do it.
-    fn ahead_of_loads(&self, body: &Body, loads: &Loads, dt: f64) -> f64 {
-        if !self.contacts.iter().any(|contact| matches!(contact, Contact::Columns(_))) {
+    pub(crate) fn ahead_of_loads(&self, body: &Body, loads: &Loads, dt: f64) -> f64 {
+        if !self.has_sprung_columns() {
             return 0.0;
         }
         let [velocity, spin] = self.foreseen;
@@ -149,8 +149,8 @@ impl Integrator {
         }
         self.short = short;
         let (elastic, push) = self.commit(surfaces, trial, share);
-        let [adhesion, left] = self.adhere(body, surfaces, trial);
-        let drawn = trial.drawn.grip;
+        let [adhesion, left] = self.adhere(body, surfaces);
+        let drawn = self.attraction.grip;
         let pull = Pull {
             force: springs.force + drawn.force + impulse / dt,
             torque: springs.torque + drawn.torque + torque / dt,
@@ -170,8 +170,8 @@ impl Integrator {
             external_work,
             ..Ledger::default()
         });
-        impulse += trial.drawn.push.impulse;
-        torque += trial.drawn.push.torque;
+        impulse += self.attraction.push.impulse;
+        torque += self.attraction.push.torque;
         let mean = (self.pull.spring_force + springs.force) * (0.5 * dt);
         let twist = (self.pull.spring_torque + springs.torque) * (0.5 * dt) + torque;
         Settled { state, pull, impulse: mean + impulse, twist, ledger }
@@ -218,11 +218,11 @@ impl Integrator {
         [velocity, spin]: [Vector3<f64>; 2],
     ) {
         let (elastic, push) = self.commit(surfaces, trial, 1.0);
-        let adhesion = self.adhere(body, surfaces, trial);
-        let (force, torque, drawn) = (trial.force(), trial.torque(), trial.drawn.grip);
+        let adhesion = self.adhere(body, surfaces);
+        let (Grip { force, torque }, drawn) = (self.grip(trial), self.attraction.grip);
         if self.keeps_ledger() {
             // Of adhesion the mean over the step is known.
-            let (before, mean) = (self.pull.drawn, trial.drawn());
+            let (before, mean) = (self.pull.drawn, self.attraction.mean(trial.dt));
             let twice = |ends: Vector3<f64>, drawn: Vector3<f64>, mean: Vector3<f64>| {
                 ends - drawn + mean * 2.0
             };

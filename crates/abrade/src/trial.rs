@@ -41,7 +41,6 @@ pub(crate) struct Trial {
     pub turn: Vector3<f64>,
     pub springs: Reaction,
     pub toll: Toll,
-    pub drawn: Attraction,
     pub touching: usize,
     pub evaluations: u64,
     pub overlap_change: f64,
@@ -68,26 +67,8 @@ impl Trial {
             flow.torque,
             spring.impulse,
             spring.torque,
-            self.drawn.push.impulse,
-            self.drawn.push.torque,
         ];
         self.state.is_finite() && forces.iter().all(|v| v.iter().all(|x| x.is_finite()))
-    }
-
-    /// Force of all contacts on the body [N]; of columns, the mean over the step.
-    pub(crate) fn force(&self) -> Vector3<f64> {
-        self.springs.force + self.swept().force + self.drawn.grip.force
-    }
-
-    /// Torque of all contacts on the body [N m]; of columns, the mean over the step.
-    pub(crate) fn torque(&self) -> Vector3<f64> {
-        self.springs.torque + self.swept().torque + self.drawn.grip.torque
-    }
-
-    /// What adhesion does to the body, in the mean over the step.
-    pub(crate) fn drawn(&self) -> Grip {
-        let Push { impulse, torque, .. } = self.drawn.push;
-        Grip { force: impulse / self.dt, torque: torque / self.dt }
     }
 
     /// What columns do to the body, in the mean over the step.
@@ -115,6 +96,21 @@ impl Trial {
 }
 
 impl Integrator {
+    /// Force [N] and torque [N m] of all contacts on the body in the last `trial`; of columns, the mean
+    /// over the step.
+    pub(crate) fn grip(&self, trial: &Trial) -> Grip {
+        let (springs, swept, drawn) = (&trial.springs, trial.swept(), &self.attraction.grip);
+        Grip {
+            force: springs.force + swept.force + drawn.force,
+            torque: springs.torque + swept.torque + drawn.torque,
+        }
+    }
+
+    /// False for a last `trial` in which something is not a number.
+    pub(crate) fn is_finite(&self, trial: &Trial) -> bool {
+        trial.is_finite() && self.attraction.is_finite()
+    }
+
     pub(crate) fn trial(
         &mut self,
         body: &Body,
@@ -156,7 +152,8 @@ impl Integrator {
         let mut trial = self.ask(body, surfaces, &state, Course { velocity, spin, dt });
         // Adhesion works along the way of the step: it takes its place between the kicks.
         if adheres {
-            self.apply(&trial.drawn.push, &mut trial.state);
+            let push = self.attraction.push;
+            self.apply(&push, &mut trial.state);
         }
         if self.is_damped {
             self.damp(surfaces, &trial);
@@ -180,12 +177,14 @@ impl Integrator {
             turn: spin * dt,
             springs: Reaction::default(),
             toll: Toll::default(),
-            drawn: Attraction::default(),
             touching: 0,
             evaluations: 0,
             overlap_change: 0.0,
             flight: surfaces.is_empty(),
         };
+        if !self.glue.is_empty() {
+            self.attraction = Attraction::default();
+        }
         let reach = (velocity.norm() + spin.norm() * body.shape.bounding_radius()) * dt;
         let keeps_ledger = self.keeps_ledger();
         if keeps_ledger {
@@ -246,13 +245,13 @@ impl Integrator {
             }
             if let Some(glue) = self.glue.get_mut(i).and_then(Option::as_mut) {
                 let drawn = glue.trial(placed.surface, &body.shape, &end, &motion);
-                trial.drawn.add(drawn, &pose);
+                self.attraction.add(drawn, &pose);
                 if ride.is_some() {
                     self.answers[i].drawn.add(&drawn.push, &pose);
                 }
             }
         }
-        trial.touching = trial.springs.touching + trial.toll.touching + trial.drawn.reaching;
+        trial.touching = trial.springs.touching + trial.toll.touching + self.attraction.reaching;
         trial.evaluations = (trial.springs.touching + trial.toll.touching) as u64;
         trial.overlap_change = trial.springs.overlap_change;
         trial
@@ -293,7 +292,8 @@ impl Integrator {
         let (springs, toll) = (&trial.springs, &trial.toll);
         let mut state = trial.state;
         self.kick(body, loads, &springs.force, &springs.torque, 0.5 * trial.dt, &mut state);
-        let cost = self.owed(toll, unpaid(toll.lost, self.short));
+        let cost = self.owed(toll, unpaid(toll.lost, self.short))
+            + self.ahead_of_loads(body, loads, trial.dt);
         balance(self.change(&toll.spring, &state, |answer| &answer.sprung), cost).1
     }
 

@@ -16,9 +16,9 @@ pub struct Worn {
     pub archard: f64,
     /// Broken off as overhangs, unpaid by the ledger.
     pub chip: f64,
-    /// Debris, by the surface's removal rule.
+    /// Debris: of what flows by the surface's removal rule, and all of what is rubbed or breaks off.
     pub removed: f64,
-    /// Displaced by faces of each angle of attack, from 0 on in steps of 5 degrees; chips left out. Only
+    /// Displaced by faces of each angle of attack, from 0 on in steps of 5 degrees; chips and what is rubbed off left out. Only
     /// where the removal rule asks for that angle, else zeros.
     pub by_attack: [f64; ATTACK_BINS],
     /// Largest depth of a node [m], renewals included.
@@ -35,6 +35,18 @@ impl Worn {
     /// W_V [m3] as the sum of its parts.
     pub fn displaced(&self) -> f64 {
         self.normal + self.lateral + self.archard + self.chip
+    }
+
+    /// Books a `volume` [m3] lost to slip.
+    pub(crate) fn rub_off(&mut self, volume: f64) {
+        self.archard += volume;
+        self.removed += volume;
+    }
+
+    /// Books an overhang of a `volume` [m3] that breaks off.
+    pub(crate) fn break_off(&mut self, volume: f64) {
+        self.chip += volume;
+        self.removed += volume;
     }
 
     /// Books a displaced `volume` [m3] of which `debris` tells what leaves.

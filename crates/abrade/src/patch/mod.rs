@@ -299,8 +299,7 @@ impl Patch {
                 surface.sink(slot.id, part * whole);
                 surface.gain.normal += volume * normal;
                 surface.gain.lateral += volume * lateral;
-                surface.gain.archard += volume * archard;
-                surface.gain.removed += volume * archard;
+                surface.gain.rub_off(volume * archard);
                 surface.gain.take_off(volume * (normal + lateral), &debris);
             }
         }
