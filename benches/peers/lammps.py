@@ -60,7 +60,7 @@ class Case:
     scene: str
     sets: list
     ours: list  # (label, sets)
-    finest: list  # two accuracies; errors are against their limit, or LAMMPS' where it is empty
+    finest: list  # two accuracies; errors are against their limit, or LAMMPS' last two rows' if empty
     of_lammps: callable
     of_summary: callable
     times: int = 1  # that each run is repeated; the least time counts
@@ -272,11 +272,11 @@ def compare(folder, program, case):
     ours = [run_abrade(program, case, label, sets, quick) for label, sets in case.ours]
     shipped = run_abrade(program, case, "with the files of the scene", case.ours[-1][1], 1, None)
     theirs = [run_lammps(folder, case, *one) for one in case.theirs]
-    far = limits(*theirs[-2:], order=1)
-    exact = far
     if case.finest:
         finest = [run_abrade(program, case, *one, 1) for one in accuracies(*case.finest)]
         exact = limits(*finest, order=2)
+    else:
+        exact = limits(*theirs[-2:], order=1)
     rows = []
     for row in theirs + ours + [shipped]:
         times = [seconds(value) for value in (row.wall, row.cpu, row.loop)]
@@ -284,8 +284,10 @@ def compare(folder, program, case):
         value, off = f"{row.value() / case.unit:.6g}", f"{error(row, exact):.1e}"
         rows.append([row.code, *times, f"{row.steps:.0f}", value, off, *ratio])
     print(f"### {case.title}\n")
-    print(f"{case.value} at a step of zero: LAMMPS {mean(far) / case.unit:.6g}", end="")
-    print(f", abrade {mean(exact) / case.unit:.6g}\n" if case.finest else "\n")
+    limit = f"{mean(exact) / case.unit:.6g} of {'abrade' if case.finest else 'LAMMPS'}"
+    nearest = max(theirs, key=lambda row: row.steps)
+    print(f"{case.value} at a step of zero: {limit};", end=" ")
+    print(f"{nearest.value() / case.unit:.6g} of {nearest.code}\n")
     measure.table(
         ["code", "wall s", "CPU s", "loop s", "steps", case.value.split(" [")[0], "error",
          "process", "loop", "against"],
