@@ -5,11 +5,12 @@ use nalgebra::Vector3;
 
 use crate::body::{Body, State};
 use crate::contact::Contact;
-use crate::encounter::Placed;
+use crate::encounter::{Loads, Placed};
 use crate::error::PhysicsError;
 use crate::extent::{bounds, clearance};
 use crate::flight::{rise_time, separation, top_speed};
 use crate::integrate::Integrator;
+use crate::settle::Pull;
 use crate::surface::Surface;
 
 /// Overlap at the first step, in bounding radii, above which a body counts as started inside.
@@ -20,6 +21,8 @@ const LIFTS: usize = 60;
 const RISE_PITCH: f64 = 0.25;
 /// Share of the kinetic energy before contact below which a body counts as stopped.
 const STOPPED: f64 = 1e-9;
+/// Share of it below which what is left of the motion of a body in contact is lost in rounding.
+const HELD: f64 = 1e-20;
 
 impl Integrator {
     /// After a contact: time until the whole body is above the undeformed surfaces [s], so that a
@@ -97,6 +100,25 @@ impl Integrator {
         self.pull.spring_force == zero
             && self.pull.spring_torque == zero
             && 0.5 * kick.norm_squared() * self.dynamics.inverse_mass <= little
+    }
+
+    /// True for a body that nothing but its contacts acts on, with surfaces at rest, and that they hold where
+    /// it is: it has next to no motion left, and their forces give it none. No step would change that.
+    pub(crate) fn is_held(&self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads) -> bool {
+        let little = HELD * self.energy_before;
+        if !self.touching || self.relative_energy(body, surfaces) >= little {
+            return false;
+        }
+        let is_led = self.dynamics.is_guided() || self.dynamics.is_immovable();
+        let at_rest = surfaces.iter().all(|placed| placed.carrier.is_none());
+        if is_led || !at_rest || *loads != Loads::default() {
+            return false;
+        }
+        let Pull { force, torque, .. } = &self.pull;
+        let turn = self.dynamics.turn(&body.state.rotation, torque);
+        let square =
+            force.norm_squared() * self.dynamics.inverse_mass + self.dynamics.work(torque, &turn);
+        0.5 * square * self.next_dt * self.next_dt <= little
     }
 
     /// Kinetic energy of a body over the material that it leans on most [J].

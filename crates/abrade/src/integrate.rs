@@ -227,7 +227,12 @@ impl Integrator {
         while done.time < duration {
             let remaining = duration - done.time;
             let (step, flight) = self.next_step(body, surfaces, loads);
-            let dt = self.step(body, surfaces, loads, step.min(remaining), flight, &mut done)?;
+            let mut dt =
+                self.step(body, surfaces, loads, step.min(remaining), flight, &mut done)?;
+            if dt < remaining && self.is_held(body, surfaces, loads) {
+                done.contact_time += remaining - dt;
+                dt = remaining;
+            }
             // The last step ends on the duration to the bit.
             done.time = if dt == remaining { duration } else { done.time + dt };
             observer.observe(&Instant {
