@@ -1,0 +1,127 @@
+//! Cells over points, to find what is near a point.
+
+/// Cells over points, each with the points in it in their order.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Grid {
+    corner: [f64; 2],
+    cell: [f64; 2],
+    cells: [usize; 2],
+    period: Option<f64>,
+    reach: f64,
+    /// Where the points of each cell begin in `members`.
+    starts: Vec<usize>,
+    members: Vec<u32>,
+    /// Room for sorting: the cell of each point, the next place in each cell.
+    cell_of_point: Vec<usize>,
+    next: Vec<usize>,
+}
+
+impl Grid {
+    /// A grid over `points` that finds what is nearer than `reach` [m].
+    pub(crate) fn new(points: &[[f64; 2]], period: Option<f64>, reach: f64) -> Self {
+        let mut grid = Self {
+            corner: [0.0; 2],
+            cell: [reach; 2],
+            cells: [1; 2],
+            period,
+            reach,
+            starts: Vec::new(),
+            members: Vec::new(),
+            cell_of_point: Vec::new(),
+            next: Vec::new(),
+        };
+        grid.renew(points);
+        grid
+    }
+
+    /// The grid over the points where they are now.
+    pub(crate) fn renew(&mut self, points: &[[f64; 2]]) {
+        let mut low = [f64::INFINITY; 2];
+        let mut high = [f64::NEG_INFINITY; 2];
+        for point in points {
+            for axis in 0..2 {
+                low[axis] = low[axis].min(point[axis]);
+                high[axis] = high[axis].max(point[axis]);
+            }
+        }
+        let mut span = [0, 1].map(|axis| (high[axis] - low[axis]).max(self.reach));
+        if let Some(period) = self.period {
+            (low[0], span[0]) = (0.0, period);
+        }
+        // Points that flew far do not make the grid larger than the list of points.
+        let most = (points.len() as f64).sqrt().ceil().max(1.0) * 4.0;
+        self.corner = low;
+        self.cells = span.map(|span| (span / self.reach).floor().clamp(1.0, most) as usize);
+        self.cell = [0, 1].map(|axis| span[axis] / self.cells[axis] as f64);
+        self.sort(points);
+    }
+
+    /// Sorts the points by their cells.
+    fn sort(&mut self, points: &[[f64; 2]]) {
+        self.cell_of_point.clear();
+        for point in points {
+            let cell = self.index(self.cell_of(*point));
+            self.cell_of_point.push(cell);
+        }
+        self.starts.clear();
+        self.starts.resize(self.cells[0] * self.cells[1] + 1, 0);
+        for cell in &self.cell_of_point {
+            self.starts[cell + 1] += 1;
+        }
+        for cell in 1..self.starts.len() {
+            self.starts[cell] += self.starts[cell - 1];
+        }
+        self.next.clone_from(&self.starts);
+        self.members.resize(points.len(), 0);
+        for (point, cell) in self.cell_of_point.iter().enumerate() {
+            self.members[self.next[*cell]] = point as u32;
+            self.next[*cell] += 1;
+        }
+    }
+
+    fn cell_of(&self, [x, y]: [f64; 2]) -> [usize; 2] {
+        let x = self.period.map_or(x, |period| x.rem_euclid(period));
+        let along = |value: f64, axis: usize| {
+            let at = (value - self.corner[axis]) / self.cell[axis];
+            (at.max(0.0) as usize).min(self.cells[axis] - 1)
+        };
+        [along(x, 0), along(y, 1)]
+    }
+
+    fn index(&self, [column, row]: [usize; 2]) -> usize {
+        row * self.cells[0] + column
+    }
+
+    /// Calls `found` with every point nearer to point `i` than the reach, itself left out.
+    pub(crate) fn each_near(&self, points: &[[f64; 2]], i: usize, mut found: impl FnMut(usize)) {
+        let [column, row] = self.cell_of(points[i]);
+        let columns = self.around(column);
+        for row in row.saturating_sub(1)..=(row + 1).min(self.cells[1] - 1) {
+            for column in columns.into_iter().flatten() {
+                let cell = self.index([column, row]);
+                for j in &self.members[self.starts[cell]..self.starts[cell + 1]] {
+                    let j = *j as usize;
+                    let mut dx = points[j][0] - points[i][0];
+                    if let Some(period) = self.period {
+                        dx -= period * (dx / period).round();
+                    }
+                    let dy = points[j][1] - points[i][1];
+                    if j != i && dx * dx + dy * dy < self.reach * self.reach {
+                        found(j);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The columns beside `column` and itself, each once.
+    fn around(&self, column: usize) -> [Option<usize>; 3] {
+        let count = self.cells[0];
+        let beside = match self.period {
+            Some(_) => [Some((column + count - 1) % count), Some((column + 1) % count)],
+            None => [column.checked_sub(1), Some(column + 1).filter(|next| *next < count)],
+        };
+        let [left, right] = beside.map(|other| other.filter(|other| *other != column));
+        [left.filter(|left| Some(*left) != right), Some(column), right]
+    }
+}

@@ -1,0 +1,245 @@
+//! The motion of an assembly: one step is a kick, a drift, the passes over pairs and elements, a kick.
+
+use abrade::ParameterError;
+
+use crate::assembly::Assembly;
+use crate::bonds::{self, Acting};
+use crate::elastic;
+use crate::elements::Elements;
+use crate::error::AdhesiveError;
+use crate::faces;
+use crate::flow;
+use crate::kinematics;
+use crate::ledger::Ledger;
+use crate::motion;
+use crate::neighbours::{Neighbours, ROOM};
+use crate::pairs::{LinkState, Pair, Pairs};
+use crate::solid::{Constants, Solid};
+
+/// Most steps from one look at speeds and at the list of pairs to the next.
+const LOOK: f64 = 20.0;
+/// The furthest that an element may come between two looks at twice its speed, in diameters: what is not
+/// yet listed stays out of reach.
+const STRIDE: f64 = 0.5 * ROOM;
+
+/// How finely time is cut, and how much the links dampen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Numerics {
+    /// Step, in times that a longitudinal wave takes through an element [-]. Stable to 0.65.
+    pub courant: f64,
+    /// Relaxation time of the links' dashpots, in the same times [-].
+    pub viscosity: f64,
+}
+
+impl Default for Numerics {
+    fn default() -> Self {
+        Self { courant: 0.5, viscosity: 0.1 }
+    }
+}
+
+impl Numerics {
+    /// Every value outside its range, with the field it stands in.
+    pub fn check(&self) -> Vec<ParameterError> {
+        let found = [
+            ParameterError::positive("courant", self.courant),
+            ParameterError::within("courant", self.courant, 0.0, 1.0),
+            ParameterError::within("viscosity", self.viscosity, 0.0, 1.0),
+        ];
+        found.into_iter().flatten().take(1).collect()
+    }
+}
+
+/// An assembly in motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Simulation {
+    constants: Constants,
+    /// Length of a step [s].
+    step: f64,
+    /// Stress of a dashpot per strain of a step [Pa].
+    viscosity: f64,
+    steps: u64,
+    next_look: u64,
+    elements: Elements,
+    pairs: Pairs,
+    neighbours: Neighbours,
+    sums: Ledger,
+}
+
+impl Simulation {
+    /// The assembly of a solid at its start.
+    ///
+    /// # Errors
+    /// A parameter is out of range, or a link or element of the assembly is impossible.
+    pub fn new(
+        solid: &Solid,
+        assembly: &Assembly,
+        numerics: Numerics,
+    ) -> Result<Self, AdhesiveError> {
+        if let Some(error) = solid.check().into_iter().chain(numerics.check()).next() {
+            return Err(error.into());
+        }
+        assembly.check()?;
+        let diameter = assembly.diameter;
+        let constants = Constants::new(solid, diameter);
+        let wave_time = diameter / solid.longitudinal_speed();
+        let step = numerics.courant * wave_time;
+        let mut elements = Elements::new(assembly, &constants, step);
+        let mut pairs = Pairs::new(assembly, &elements, constants.strength);
+        let mut neighbours = Neighbours::new(&elements, &pairs, diameter, assembly.period);
+        neighbours.list(&elements, &mut pairs);
+        faces::count_links(&mut elements, &pairs, &constants);
+        let viscosity = constants.twice_shear * numerics.viscosity / numerics.courant;
+        let sums = Ledger::default();
+        Ok(Self {
+            constants,
+            step,
+            viscosity,
+            steps: 0,
+            next_look: 0,
+            elements,
+            pairs,
+            neighbours,
+            sums,
+        })
+    }
+
+    /// Goes on by one step.
+    ///
+    /// # Errors
+    /// An element moved further than a step resolves, or what moves it is no longer a number.
+    pub fn step(&mut self) -> Result<(), AdhesiveError> {
+        self.sums.drive += motion::drive_work(&self.elements, self.step);
+        motion::kick(&mut self.elements, self.step);
+        motion::drift(&mut self.elements, self.step);
+        if self.steps == self.next_look {
+            self.look()?;
+        }
+        let Self { constants, step, elements, pairs, sums, .. } = self;
+        kinematics::stretch(elements, pairs, constants, *step);
+        elastic::mean_stress(elements, constants);
+        elastic::trial(elements, pairs, constants);
+        sums.plastic += flow::flow(elements, constants);
+        let losses = bonds::act(elements, pairs, Acting { constants, viscosity: self.viscosity });
+        sums.viscous += losses.viscous;
+        sums.released += losses.released;
+        sums.drive += motion::drive_work(elements, *step);
+        motion::kick(elements, *step);
+        sums.drag += motion::drag(elements, constants);
+        self.steps += 1;
+        Ok(())
+    }
+
+    /// Refuses speeds that no step resolves, and lists the pairs anew where something may have come near.
+    fn look(&mut self) -> Result<(), AdhesiveError> {
+        let (square, element) = motion::fastest(&self.elements);
+        let speed = square.sqrt();
+        let room = STRIDE * self.constants.diameter;
+        let stride = 2.0 * speed * self.step;
+        if stride.is_nan() || stride > room {
+            let allowed = room / (2.0 * self.step);
+            return Err(AdhesiveError::TooFast { time: self.time(), element, speed, allowed });
+        }
+        let steps = (room / stride).floor().clamp(1.0, LOOK);
+        self.next_look = self.steps + steps as u64;
+        if self.neighbours.moved(&self.elements) + steps * stride > room {
+            self.neighbours.list(&self.elements, &mut self.pairs);
+        }
+        Ok(())
+    }
+
+    /// Time since the start [s].
+    pub fn time(&self) -> f64 {
+        self.steps as f64 * self.step
+    }
+
+    /// Length of a step [s].
+    pub fn step_length(&self) -> f64 {
+        self.step
+    }
+
+    /// Number of elements.
+    pub fn count(&self) -> usize {
+        self.elements.count
+    }
+
+    /// Position of an element [m].
+    pub fn position(&self, element: usize) -> [f64; 2] {
+        [self.elements.x[element], self.elements.y[element]]
+    }
+
+    /// Velocity of an element [m/s].
+    pub fn velocity(&self, element: usize) -> [f64; 2] {
+        [self.elements.vx[element], self.elements.vy[element]]
+    }
+
+    /// Spin of an element, anticlockwise [rad/s].
+    pub fn spin(&self, element: usize) -> f64 {
+        self.elements.spin[element]
+    }
+
+    /// Stress of an element, tension above zero: xx, yy, xy, zz [Pa].
+    pub fn stress(&self, element: usize) -> [f64; 4] {
+        let e = &self.elements;
+        [e.sxx[element], e.syy[element], e.sxy[element], e.szz[element]]
+    }
+
+    /// Equivalent plastic strain of an element [-].
+    pub fn plastic_strain(&self, element: usize) -> f64 {
+        self.elements.plastic_strain[element]
+    }
+
+    /// Force of its pairs on an element [N], per metre of thickness.
+    pub fn force(&self, element: usize) -> [f64; 2] {
+        let total = |sum: &[Vec<f64>; 2]| sum[0][element] + sum[1][element];
+        [total(&self.elements.force_x), total(&self.elements.force_y)]
+    }
+
+    /// Mass of an element [kg] and its moment of inertia [kg m2], per metre of thickness.
+    pub fn inertia(&self) -> [f64; 2] {
+        [self.constants.mass, self.constants.inertia]
+    }
+
+    /// The pairs: those linked at the start, then those within reach of each other.
+    pub fn pairs(&self) -> impl Iterator<Item = Pair> {
+        let pairs = &self.pairs;
+        let is_there = |at: &usize| (pairs.ends(*at)[0] as usize) < self.elements.count;
+        (0..pairs.len()).filter(is_there).map(|at| Pair {
+            ends: pairs.ends(at),
+            state: pairs.state[at],
+            distance: pairs.distance[at],
+            stress: [pairs.normal[at], pairs.tangential[at]],
+            breaks: pairs.breaks[at],
+            is_original: at < pairs.original,
+        })
+    }
+
+    /// Where the energy is and where it went.
+    pub fn ledger(&self) -> Ledger {
+        let e = &self.elements;
+        let [mass, inertia] = self.inertia();
+        let motion = |at: usize| {
+            let square = e.vx[at] * e.vx[at] + e.vy[at] * e.vy[at];
+            0.5 * (mass * square + inertia * e.spin[at] * e.spin[at])
+        };
+        // The energy per volume of an element beside its pairs': 1/2 A sigma_mean^2 / (3 c_N), and that
+        // of the elastic strain along z which flow leaves, (sigma_zz - A sigma_mean)^2 / (4 G).
+        let pressed = |at: usize| {
+            let mean = e.mean_sum[at];
+            let square = mean * mean / (3.0 * e.response[at]);
+            let along = e.szz[at] - self.constants.coupling * mean;
+            let strained = along * along / (2.0 * self.constants.twice_shear);
+            (0.5 * self.constants.coupling * square + strained) * self.constants.volume
+        };
+        let faces = |at: usize| {
+            let [i, j] = self.pairs.ends(at);
+            let mean = e.mean_sum[i as usize] + e.mean_sum[j as usize];
+            faces::pair_energy(&self.pairs, &self.constants, at, mean)
+        };
+        let linked = (0..self.pairs.len()).filter(|at| self.pairs.state[*at] == LinkState::Linked);
+        Ledger {
+            kinetic: (0..e.count).map(motion).sum(),
+            elastic: (0..e.count).map(pressed).sum::<f64>() + linked.map(faces).sum::<f64>(),
+            ..self.sums
+        }
+    }
+}
