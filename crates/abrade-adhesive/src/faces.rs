@@ -9,22 +9,25 @@ use crate::pairs::{LinkState, Pairs};
 use crate::solid::Constants;
 
 /// Changes the state of a pair if it is due; returns the energy that was released [J].
-#[cold]
 pub(crate) fn change(
     elements: &mut Elements,
     pairs: &mut Pairs,
     constants: &Constants,
-    (at, ends): (usize, [usize; 2]),
+    at: usize,
     does_fail: bool,
 ) -> f64 {
+    if pairs.state[at] == LinkState::Far || (pairs.state[at] == LinkState::Linked && !does_fail) {
+        return 0.0;
+    }
+    let ends = pairs.ends.of(at).map(|end| end as usize);
     let mean = elements.mean[ends[0]] + elements.mean[ends[1]];
     let held = elements.mean_sum[ends[0]] + elements.mean_sum[ends[1]];
     let before = pair_work(pairs, constants, at, held);
     match pairs.state[at] {
-        LinkState::Linked if does_fail => fail(elements, pairs, constants, (at, ends), mean),
+        LinkState::Linked => fail(elements, pairs, constants, (at, ends), mean),
         LinkState::Adhering => adhere(elements, pairs, constants, (at, ends), mean),
         LinkState::Open => meet(elements, pairs, constants, (at, ends), mean),
-        LinkState::Linked | LinkState::Far => return 0.0,
+        LinkState::Far => {}
     }
     before - pair_work(pairs, constants, at, held)
 }
@@ -157,7 +160,7 @@ fn release(elements: &mut Elements, constants: &Constants, ends: [usize; 2], dro
 pub(crate) fn count_links(elements: &mut Elements, pairs: &Pairs, constants: &Constants) {
     let mut linked = vec![0u8; elements.x.len()];
     for at in (0..pairs.len()).filter(|at| pairs.state[*at] == LinkState::Linked) {
-        for end in pairs.ends(at) {
+        for end in pairs.ends.of(at) {
             linked[end as usize] += 1;
         }
     }

@@ -3,7 +3,7 @@
 use wide::f64x4;
 
 use crate::elements::Elements;
-use crate::lanes::{Ends, LANES, load, store};
+use crate::lanes::{BlockPass, Ends, Sides, load, sides, store};
 use crate::pairs::Pairs;
 use crate::solid::Constants;
 
@@ -14,41 +14,61 @@ pub(crate) fn stretch(
     constants: &Constants,
     step: f64,
 ) {
-    for block in 0..pairs.runs.len() {
-        let run = pairs.runs[block];
-        stretch_block(elements, pairs, constants, step, (block * LANES, run));
-    }
-    for at in (pairs.runs.len() * LANES..pairs.len()).step_by(LANES) {
-        let loose = pairs.loose_block(at);
-        stretch_block(elements, pairs, constants, step, (at, loose));
-    }
+    let (count, length) = (elements.x.len(), pairs.nx.len());
+    pairs.ends.sweep(&mut Stretch {
+        x: &elements.x[..count],
+        y: &elements.y[..count],
+        spin: &elements.spin[..count],
+        strain: sides(&mut elements.strain, count),
+        image: &pairs.image[..length],
+        live: &pairs.live[..length],
+        nx: &mut pairs.nx[..length],
+        ny: &mut pairs.ny[..length],
+        distance: &mut pairs.distance[..length],
+        stretch: &mut pairs.stretch[..length],
+        shear: &mut pairs.shear[..length],
+        per_diameter: f64x4::splat(1.0 / constants.diameter),
+        half_step: f64x4::splat(0.5 * step),
+    });
 }
 
-/// Normal strain dr / d; shear: the turn of the pair less the mean turn of its ends, which is the tensor
-/// shear t.eps.n of a material whose elements turn with it.
-#[inline(always)]
-fn stretch_block(
-    elements: &mut Elements,
-    pairs: &mut Pairs,
-    constants: &Constants,
-    step: f64,
-    (at, ends): (usize, impl Ends),
-) {
-    let ([xi, xj], [yi, yj]) = (ends.get(&elements.x), ends.get(&elements.y));
-    let [spin_i, spin_j] = ends.get(&elements.spin);
-    let dx = xj - xi + load(&pairs.image, at);
-    let dy = yj - yi;
-    let distance = (dx * dx + dy * dy).sqrt();
-    let inverse = f64x4::splat(1.0) / distance;
-    let (nx, ny) = (dx * inverse, dy * inverse);
-    let strain = (distance - load(&pairs.distance, at)) * f64x4::splat(1.0 / constants.diameter);
-    let turn = load(&pairs.nx, at) * ny - load(&pairs.ny, at) * nx;
-    let shear = turn - (spin_i + spin_j) * f64x4::splat(0.5 * step);
-    let linked = strain * load(&pairs.live, at);
-    store(&mut pairs.nx, at, nx);
-    store(&mut pairs.ny, at, ny);
-    store(&mut pairs.distance, at, distance);
-    store(&mut pairs.stretch, at, strain);
-    store(&mut pairs.shear, at, shear);
-    ends.add(&mut elements.strain, [linked, linked]);
+struct Stretch<'a> {
+    x: &'a [f64],
+    y: &'a [f64],
+    spin: &'a [f64],
+    strain: Sides<'a>,
+    image: &'a [f64],
+    live: &'a [f64],
+    nx: &'a mut [f64],
+    ny: &'a mut [f64],
+    distance: &'a mut [f64],
+    stretch: &'a mut [f64],
+    shear: &'a mut [f64],
+    per_diameter: f64x4,
+    half_step: f64x4,
+}
+
+impl BlockPass for Stretch<'_> {
+    /// Normal strain dr / d; shear: the turn of the pair less the mean turn of its ends, which is the
+    /// tensor shear t.eps.n of a material whose elements turn with it.
+    #[inline(always)]
+    fn block<E: Ends>(&mut self, at: usize, ends: E) {
+        let ([xi, xj], [yi, yj]) = (ends.get(self.x), ends.get(self.y));
+        let [spin_i, spin_j] = ends.get(self.spin);
+        let dx = xj - xi + load(self.image, at);
+        let dy = yj - yi;
+        let distance = (dx * dx + dy * dy).sqrt();
+        let inverse = f64x4::splat(1.0) / distance;
+        let (nx, ny) = (dx * inverse, dy * inverse);
+        let strain = (distance - load(self.distance, at)) * self.per_diameter;
+        let turn = load(self.nx, at) * ny - load(self.ny, at) * nx;
+        let shear = turn - (spin_i + spin_j) * self.half_step;
+        let linked = strain * load(self.live, at);
+        store(self.nx, at, nx);
+        store(self.ny, at, ny);
+        store(self.distance, at, distance);
+        store(self.stretch, at, strain);
+        store(self.shear, at, shear);
+        ends.add(&mut self.strain, [linked, linked]);
+    }
 }

@@ -12,14 +12,22 @@ pub(crate) const LANES: usize = 4;
 /// A sum over pairs: of those that an element begins, and of those that it ends.
 pub(crate) type Sum = [Vec<f64>; 2];
 
+/// A sum as a pass holds it.
+pub(crate) type Sides<'a> = [&'a mut [f64]; 2];
+
+/// The first `count` numbers of a sum's columns: a pass that cuts all columns to one length looks once
+/// whether a block is inside them.
+pub(crate) fn sides(sum: &mut Sum, count: usize) -> Sides<'_> {
+    let [first, second] = sum;
+    [&mut first[..count], &mut second[..count]]
+}
+
 /// The ends of the pairs of a block.
 pub(crate) trait Ends: Copy {
     /// Values of a column at the first and the second ends.
     fn get(self, column: &[f64]) -> [f64x4; 2];
     /// Adds to the sum of the first ends, and of the second.
-    fn add(self, sum: &mut Sum, values: [f64x4; 2]);
-    /// The ends of one pair.
-    fn of(self, lane: usize) -> [usize; 2];
+    fn add(self, sum: &mut Sides, values: [f64x4; 2]);
 }
 
 /// First ends that follow each other from an element on, and second ends likewise.
@@ -37,39 +45,33 @@ impl Ends for Run {
     }
 
     #[inline(always)]
-    fn add(self, sum: &mut Sum, values: [f64x4; 2]) {
+    fn add(self, sum: &mut Sides, values: [f64x4; 2]) {
         for side in 0..2 {
             let at = self.0[side] as usize;
-            let old = load(&sum[side], at);
-            store(&mut sum[side], at, old + values[side]);
+            let old = load(sum[side], at);
+            store(sum[side], at, old + values[side]);
         }
-    }
-
-    #[inline(always)]
-    fn of(self, lane: usize) -> [usize; 2] {
-        self.0.map(|first| first as usize + lane)
     }
 }
 
 impl Ends for Loose {
     #[inline(always)]
     fn get(self, column: &[f64]) -> [f64x4; 2] {
-        self.0.map(|ends| f64x4::new(ends.map(|end| column[end as usize])))
+        let four = |[a, b, c, d]: [u32; LANES]| {
+            let at = |end: u32| column[end as usize];
+            f64x4::new([at(a), at(b), at(c), at(d)])
+        };
+        [four(self.0[0]), four(self.0[1])]
     }
 
     #[inline(always)]
-    fn add(self, sum: &mut Sum, values: [f64x4; 2]) {
+    fn add(self, sum: &mut Sides, values: [f64x4; 2]) {
         for side in 0..2 {
             let values = values[side].to_array();
             for (end, value) in self.0[side].iter().zip(values) {
                 sum[side][*end as usize] += value;
             }
         }
-    }
-
-    #[inline(always)]
-    fn of(self, lane: usize) -> [usize; 2] {
-        self.0.map(|ends| ends[lane] as usize)
     }
 }
 
@@ -84,4 +86,43 @@ pub(crate) fn load(column: &[f64], at: usize) -> f64x4 {
 #[inline(always)]
 pub(crate) fn store(column: &mut [f64], at: usize, values: f64x4) {
     column[at..at + LANES].copy_from_slice(&values.to_array());
+}
+
+/// Something done to each block of four pairs.
+pub(crate) trait BlockPass {
+    /// Does it to the block whose first pair is `at`.
+    fn block<E: Ends>(&mut self, at: usize, ends: E);
+}
+
+/// The ends of all pairs: blocks whose ends follow each other, then loose pairs, four by four.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct AllEnds {
+    pub(crate) runs: Vec<Run>,
+    pub(crate) loose: [Vec<u32>; 2],
+}
+
+impl AllEnds {
+    /// Does a pass over all blocks, in their order.
+    #[inline(always)]
+    pub(crate) fn sweep(&self, pass: &mut impl BlockPass) {
+        let mut at = 0;
+        for run in &self.runs {
+            pass.block(at, *run);
+            at += LANES;
+        }
+        let (first, _) = self.loose[0].as_chunks::<LANES>();
+        let (second, _) = self.loose[1].as_chunks::<LANES>();
+        for (first, second) in first.iter().zip(second) {
+            pass.block(at, Loose([*first, *second]));
+            at += LANES;
+        }
+    }
+
+    /// The ends of pair `at`.
+    pub(crate) fn of(&self, at: usize) -> [u32; 2] {
+        match at.checked_sub(self.runs.len() * LANES) {
+            Some(loose) => [self.loose[0][loose], self.loose[1][loose]],
+            None => self.runs[at / LANES].0.map(|first| first + (at % LANES) as u32),
+        }
+    }
 }

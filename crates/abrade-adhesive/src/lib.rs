@@ -12,7 +12,6 @@
 
 mod asperities;
 mod assembly;
-mod bonds;
 mod classify;
 mod collision;
 mod components;
@@ -21,6 +20,7 @@ mod elements;
 mod error;
 mod faces;
 mod flow;
+mod forces;
 mod grid;
 mod kinematics;
 mod lanes;
@@ -30,6 +30,7 @@ mod neighbours;
 mod packing;
 mod pairs;
 mod profile;
+mod returned;
 mod simulation;
 mod solid;
 

@@ -3,36 +3,42 @@
 use wide::f64x4;
 
 use crate::elements::Elements;
-use crate::lanes::{LANES, load, store};
+use crate::lanes::{LANES, Sum, load, store};
 use crate::solid::Constants;
 
 /// Half a step of the velocities.
 pub(crate) fn kick(elements: &mut Elements, step: f64) {
+    let count = elements.x.len();
     let half = f64x4::splat(0.5 * step);
-    for at in (0..elements.x.len()).step_by(LANES) {
-        let total = |sum: &[Vec<f64>; 2]| load(&sum[0], at) + load(&sum[1], at);
-        let forces = [&elements.force_x, &elements.force_y, &elements.torque].map(total);
-        let columns = [&mut elements.vx, &mut elements.vy, &mut elements.spin];
-        let mobilities = [&elements.mobility_x, &elements.mobility_y, &elements.mobility_spin];
-        for ((column, mobility), force) in columns.into_iter().zip(mobilities).zip(forces) {
+    let kick = |column: &mut Vec<f64>, sum: &Sum, mobility: &Vec<f64>| {
+        let (column, mobility) = (&mut column[..count], &mobility[..count]);
+        let (begun, ended) = (&sum[0][..count], &sum[1][..count]);
+        for at in (0..count).step_by(LANES) {
+            let force = load(begun, at) + load(ended, at);
             let kicked = load(column, at) + half * (force * load(mobility, at));
             store(column, at, kicked);
         }
-    }
+    };
+    kick(&mut elements.vx, &elements.force_x, &elements.mobility_x);
+    kick(&mut elements.vy, &elements.force_y, &elements.mobility_y);
+    kick(&mut elements.spin, &elements.torque, &elements.mobility_spin);
 }
 
 /// A step of the positions. The sums of forces begin anew.
 pub(crate) fn drift(elements: &mut Elements, step: f64) {
-    let step = f64x4::splat(step);
-    for at in (0..elements.x.len()).step_by(LANES) {
-        let x = load(&elements.x, at) + step * load(&elements.vx, at);
-        store(&mut elements.x, at, x);
-        let y = load(&elements.y, at) + step * load(&elements.vy, at);
-        store(&mut elements.y, at, y);
-        for sum in [&mut elements.force_x, &mut elements.force_y, &mut elements.torque] {
-            store(&mut sum[0], at, f64x4::ZERO);
-            store(&mut sum[1], at, f64x4::ZERO);
+    let count = elements.x.len();
+    let along = f64x4::splat(step);
+    let drift = |column: &mut Vec<f64>, speed: &Vec<f64>| {
+        let (column, speed) = (&mut column[..count], &speed[..count]);
+        for at in (0..count).step_by(LANES) {
+            let moved = load(column, at) + along * load(speed, at);
+            store(column, at, moved);
         }
+    };
+    drift(&mut elements.x, &elements.vx);
+    drift(&mut elements.y, &elements.vy);
+    for sum in [&mut elements.force_x, &mut elements.force_y, &mut elements.torque] {
+        sum.iter_mut().for_each(|side| side.fill(0.0));
     }
 }
 

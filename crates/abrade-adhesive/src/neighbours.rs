@@ -35,7 +35,7 @@ impl Neighbours {
     ) -> Self {
         let mut original: Vec<[u32; 2]> = (0..pairs.original)
             .filter(|at| pairs.state[*at] == LinkState::Linked)
-            .map(|at| pairs.ends(at))
+            .map(|at| pairs.ends.of(at))
             .collect();
         original.sort_unstable();
         let starts = (0..=elements.count as u32)
@@ -90,7 +90,7 @@ impl Neighbours {
         let cut = CUT * self.diameter;
         for at in 0..pairs.original {
             // Not a pair of ghosts.
-            let is_pair = (pairs.ends(at)[0] as usize) < self.positions.len();
+            let is_pair = (pairs.ends.of(at)[0] as usize) < self.positions.len();
             match pairs.state[at] {
                 LinkState::Open if pairs.distance[at] > cut => pairs.state[at] = LinkState::Far,
                 LinkState::Far if pairs.distance[at] <= cut && is_pair => {

@@ -4,7 +4,7 @@
 
 use crate::assembly::Assembly;
 use crate::elements::Elements;
-use crate::lanes::{LANES, Loose, Run};
+use crate::lanes::{AllEnds, LANES, Run};
 
 /// What holds a pair together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,10 +52,7 @@ pub(crate) struct Met {
 /// Columns of pairs.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Pairs {
-    /// First ends of the blocks whose ends follow each other.
-    pub(crate) runs: Vec<Run>,
-    /// Ends of the loose pairs.
-    pub(crate) loose: [Vec<u32>; 2],
+    pub(crate) ends: AllEnds,
     /// Pairs before this one, loose or not, were linked at the start.
     pub(crate) original: usize,
     /// Unit vector from the first to the second end, their distance [m], and what periodicity adds to x [m].
@@ -97,8 +94,10 @@ impl Pairs {
         links.dedup_by_key(|(ends, _)| *ends);
         let (runs, loose) = blocks(&links);
         let mut pairs = Self {
-            runs: runs.iter().map(|run| Run(run[0].0)).collect(),
-            loose: [Vec::new(), Vec::new()],
+            ends: AllEnds {
+                runs: runs.iter().map(|run| Run(run[0].0)).collect(),
+                loose: [Vec::new(), Vec::new()],
+            },
             original: 0,
             nx: Vec::new(),
             ny: Vec::new(),
@@ -141,8 +140,8 @@ impl Pairs {
         ends: [u32; 2],
         period: Option<f64>,
     ) {
-        self.loose[0].push(ends[0]);
-        self.loose[1].push(ends[1]);
+        self.ends.loose[0].push(ends[0]);
+        self.ends.loose[1].push(ends[1]);
         self.columns_push(contact, elements, ends, period);
     }
 
@@ -158,7 +157,7 @@ impl Pairs {
     /// What pair `at` keeps while pairs are listed anew.
     pub(crate) fn met(&self, at: usize) -> Met {
         Met {
-            ends: self.ends(at),
+            ends: self.ends.of(at),
             state: self.state[at],
             direction: [self.nx[at], self.ny[at]],
             distance: self.distance[at],
@@ -184,8 +183,8 @@ impl Pairs {
 
     /// Takes off all pairs from `count` on.
     pub(crate) fn truncate(&mut self, count: usize) {
-        let loose = count - self.runs.len() * LANES;
-        self.loose.iter_mut().for_each(|ends| ends.truncate(loose));
+        let loose = count - self.ends.runs.len() * LANES;
+        self.ends.loose.iter_mut().for_each(|ends| ends.truncate(loose));
         self.numbers().for_each(|column| column.truncate(count));
         self.state.truncate(count);
         self.breaks.truncate(count);
@@ -240,22 +239,6 @@ impl Pairs {
         if !can_break {
             self.strength[last] = f64::INFINITY;
         }
-    }
-
-    /// The ends of pair `at`.
-    pub(crate) fn ends(&self, at: usize) -> [u32; 2] {
-        match at.checked_sub(self.runs.len() * LANES) {
-            Some(loose) => [self.loose[0][loose], self.loose[1][loose]],
-            None => self.runs[at / LANES].0.map(|first| first + (at % LANES) as u32),
-        }
-    }
-
-    /// The ends of the loose block whose first pair is `at`.
-    #[inline(always)]
-    pub(crate) fn loose_block(&self, at: usize) -> Loose {
-        let at = at - self.runs.len() * LANES;
-        let four = |ends: &[u32]| ends[at..at + LANES].try_into().expect("four ends");
-        Loose([four(&self.loose[0]), four(&self.loose[1])])
     }
 }
 

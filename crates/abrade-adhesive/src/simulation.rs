@@ -3,17 +3,18 @@
 use abrade::ParameterError;
 
 use crate::assembly::Assembly;
-use crate::bonds::{self, Acting};
 use crate::elastic;
 use crate::elements::Elements;
 use crate::error::AdhesiveError;
 use crate::faces;
 use crate::flow;
+use crate::forces;
 use crate::kinematics;
 use crate::ledger::Ledger;
 use crate::motion;
 use crate::neighbours::{Neighbours, ROOM};
 use crate::pairs::{LinkState, Pair, Pairs};
+use crate::returned::{self, Due};
 use crate::solid::{Constants, Solid};
 
 /// Most steps from one look at speeds and at the list of pairs to the next.
@@ -62,6 +63,7 @@ pub struct Simulation {
     elements: Elements,
     pairs: Pairs,
     neighbours: Neighbours,
+    due: Due,
     sums: Ledger,
 }
 
@@ -89,6 +91,7 @@ impl Simulation {
         neighbours.list(&elements, &mut pairs);
         faces::count_links(&mut elements, &pairs, &constants);
         let viscosity = constants.twice_shear * numerics.viscosity / numerics.courant;
+        let due = Due::with_capacity(pairs.nx.len());
         let sums = Ledger::default();
         Ok(Self {
             constants,
@@ -99,6 +102,7 @@ impl Simulation {
             elements,
             pairs,
             neighbours,
+            due,
             sums,
         })
     }
@@ -114,14 +118,14 @@ impl Simulation {
         if self.steps == self.next_look {
             self.look()?;
         }
-        let Self { constants, step, elements, pairs, sums, .. } = self;
+        let Self { constants, step, elements, pairs, due, sums, .. } = self;
         kinematics::stretch(elements, pairs, constants, *step);
         elastic::mean_stress(elements, constants);
         elastic::trial(elements, pairs, constants);
         sums.plastic += flow::flow(elements, constants);
-        let losses = bonds::act(elements, pairs, Acting { constants, viscosity: self.viscosity });
-        sums.viscous += losses.viscous;
-        sums.released += losses.released;
+        returned::follow(elements, pairs, constants, due);
+        sums.released += returned::change(elements, pairs, constants, due);
+        sums.viscous += forces::act(elements, pairs, constants, self.viscosity);
         sums.drive += motion::drive_work(elements, *step);
         motion::kick(elements, *step);
         sums.drag += motion::drag(elements, constants);
@@ -202,9 +206,9 @@ impl Simulation {
     /// The pairs: those linked at the start, then those within reach of each other.
     pub fn pairs(&self) -> impl Iterator<Item = Pair> {
         let pairs = &self.pairs;
-        let is_there = |at: &usize| (pairs.ends(*at)[0] as usize) < self.elements.count;
+        let is_there = |at: &usize| (pairs.ends.of(*at)[0] as usize) < self.elements.count;
         (0..pairs.len()).filter(is_there).map(|at| Pair {
-            ends: pairs.ends(at),
+            ends: pairs.ends.of(at),
             state: pairs.state[at],
             distance: pairs.distance[at],
             stress: [pairs.normal[at], pairs.tangential[at]],
@@ -231,7 +235,7 @@ impl Simulation {
             (0.5 * self.constants.coupling * square + strained) * self.constants.volume
         };
         let faces = |at: usize| {
-            let [i, j] = self.pairs.ends(at);
+            let [i, j] = self.pairs.ends.of(at);
             let mean = e.mean_sum[i as usize] + e.mean_sum[j as usize];
             faces::pair_energy(&self.pairs, &self.constants, at, mean)
         };
