@@ -37,7 +37,7 @@ pub struct Asperities {
     /// How the elements lie (default `Regular`).
     pub packing: Packing,
     /// Overlap: the highest centres of the lower and the lowest of the upper body pass each other at the
-    /// distance d (1 - overlap) (default 0.25) [-].
+    /// distance d (1 - overlap) (default 0.3) [-].
     pub overlap: f64,
     /// Distance along x of the corners that come together, in diameters (default 1.2) [-].
     pub gap: f64,
@@ -67,7 +67,7 @@ impl Default for Asperities {
             base: 0.25e-3,
             period: 2.25e-3,
             packing: Packing::Regular,
-            overlap: 0.25,
+            overlap: 0.3,
             gap: 1.2,
             speed: 1.0,
             travel: None,

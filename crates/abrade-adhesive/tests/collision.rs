@@ -95,3 +95,33 @@ fn ductile_asperities_slip_and_brittle_ones_break_away() {
     }
     assert!(slipping.figures().worn < 0.05 && breakaway.figures().worn > 0.15);
 }
+
+/// Fails for numbers that run away without a word: every run goes on with finite numbers, or ends with an
+/// error that says where.
+#[test]
+fn extreme_solids_and_speeds_stay_finite_or_say_why() {
+    let mut ended = 0;
+    for young in [1e8, 1e9, 1e11] {
+        for speed in [0.01, 10.0] {
+            for (ratio, share) in [(1.0, 0.0), (1.0, 1.0), (20.0, 0.0), (20.0, 1.0)] {
+                let solid = Solid { young, strength_ratio: ratio, ..Solid::default() };
+                let solid = Solid { hardening: 0.5 * young, ..solid };
+                let solid = Solid { adhesion: share * solid.tensile_strength(), ..solid };
+                // The corners all but touch.
+                let asperities = Asperities { speed, gap: -0.3, ..Asperities::default() };
+                let mut collision = Collision::new(&solid, &asperities).unwrap();
+                let outcome = (0..500).try_for_each(|_| collision.step());
+                let finite = collision.simulation().ledger().balance().is_finite()
+                    && collision.mean_load().iter().all(|force| force.is_finite());
+                match outcome {
+                    Ok(()) => assert!(finite, "{young:e} {speed} {ratio} {share}"),
+                    Err(error) => {
+                        assert!(matches!(error, AdhesiveError::TooFast { .. }), "{error}");
+                        ended += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(ended < 12, "{ended} of 24 runs ended early");
+}

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::failure::Failure;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// Plastic wear of surfaces struck by rigid bodies.
@@ -25,6 +26,9 @@ pub(crate) enum Command {
     Study(StudyCommand),
     /// Make an erosion study in parts: some of its cases, anywhere, and merge them.
     Sweep(SweepArguments),
+    /// Asperities that collide: one collision, or a map of regimes.
+    #[command(subcommand)]
+    Adhesive(AdhesiveCommand),
     /// Make a page that shows a finished run: worn surface, bodies, time, cross-section.
     View(ViewArguments),
     /// Look over a clump file, or convert it.
@@ -103,6 +107,13 @@ pub(crate) struct ErosionArguments {
 pub(crate) struct SweepArguments {
     #[command(flatten)]
     pub(crate) erosion: ErosionArguments,
+    #[command(flatten)]
+    pub(crate) part: PartArguments,
+}
+
+/// Which part of a study is made.
+#[derive(Args)]
+pub(crate) struct PartArguments {
     /// Make this case alone, by its number from 0; one that is there already is left as it is.
     #[arg(long, value_name = "K", group = "part")]
     pub(crate) case: Option<usize>,
@@ -117,9 +128,77 @@ pub(crate) struct SweepArguments {
     pub(crate) list: bool,
 }
 
+impl PartArguments {
+    /// Whether all cases are meant.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.case.is_none() && self.shard.is_none()
+    }
+
+    /// Those of `cases` that are meant.
+    pub(crate) fn choose<C>(
+        &self,
+        mut cases: Vec<C>,
+        number: impl Fn(&C) -> usize,
+    ) -> Result<Vec<C>, Failure> {
+        if let Some(case) = self.case {
+            if !cases.iter().any(|other| number(other) == case) {
+                let all = cases.len();
+                let error = anyhow::anyhow!("there is no case {case}: the study has {all}, from 0");
+                return Err(Failure::Input(error));
+            }
+            cases.retain(|other| number(other) == case);
+        }
+        if let Some([first, pace]) = self.shard {
+            cases.retain(|case| number(case) % pace == first);
+        }
+        Ok(cases)
+    }
+}
+
 fn shard(text: &str) -> Result<[usize; 2], String> {
     let parts = text.split_once('/').and_then(|(i, n)| Some([i.parse().ok()?, n.parse().ok()?]));
     parts.filter(|[i, n]| i < n).ok_or_else(|| "expected I/N with I from 0 to N - 1".to_owned())
+}
+
+/// What is made of asperities.
+#[derive(Subcommand)]
+pub(crate) enum AdhesiveCommand {
+    /// Run a collision and say what became of the asperities.
+    Run(AdhesiveRunArguments),
+    /// Make a map: many collisions over ratios of strength and adhesion, and where grinding begins. Goes on
+    /// where it was broken off.
+    Map(AdhesiveMapArguments),
+}
+
+/// Arguments of `adhesive run`.
+#[derive(Args)]
+pub(crate) struct AdhesiveRunArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Folder for the results [default: runs/<scene name>].
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Print the summary file's content, and nothing else.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// Arguments of `adhesive map`.
+#[derive(Args)]
+pub(crate) struct AdhesiveMapArguments {
+    /// Map file (RON).
+    pub(crate) study: PathBuf,
+    /// Change a value of the map, as in bodies.overlap=0.3; may be repeated.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub(crate) sets: Vec<String>,
+    /// Folder for the results [default: runs/<map name>].
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Threads [default: one per core].
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(crate) jobs: Option<u16>,
+    #[command(flatten)]
+    pub(crate) part: PartArguments,
 }
 
 /// Arguments of `study convergence`.
@@ -285,6 +364,12 @@ pub(crate) struct SchemaArguments {
     #[arg(long)]
     pub(crate) fields: bool,
     /// The form of an erosion study in the place of that of a scene.
-    #[arg(long)]
+    #[arg(long, group = "form")]
     pub(crate) study: bool,
+    /// The form of a scene of two asperities.
+    #[arg(long, group = "form")]
+    pub(crate) adhesive: bool,
+    /// The form of a map of their regimes.
+    #[arg(long, group = "form")]
+    pub(crate) map: bool,
 }

@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
+mod adhesive;
 mod arguments;
 mod check;
 mod clump;
@@ -27,7 +28,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
-use arguments::{Arguments, Command, StudyCommand};
+use arguments::{AdhesiveCommand, Arguments, Command, StudyCommand};
 
 fn main() -> ExitCode {
     let result = match Arguments::parse().command {
@@ -36,6 +37,8 @@ fn main() -> ExitCode {
         Command::Study(StudyCommand::Convergence(arguments)) => study::convergence(&arguments),
         Command::Study(StudyCommand::Erosion(arguments)) => erosion::erosion(&arguments),
         Command::Sweep(arguments) => sweep::sweep(&arguments),
+        Command::Adhesive(AdhesiveCommand::Run(arguments)) => adhesive::run(&arguments),
+        Command::Adhesive(AdhesiveCommand::Map(arguments)) => adhesive::map(&arguments),
         Command::Clump(arguments) => clump::clump(&arguments),
         Command::Laws(arguments) => laws::laws(&arguments),
         Command::Schema(arguments) => schema::schema(&arguments),

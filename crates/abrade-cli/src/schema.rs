@@ -9,9 +9,11 @@ use crate::say::say;
 
 /// Prints the JSON schema, or the field reference.
 pub(crate) fn schema(arguments: &SchemaArguments) -> Result<(), Failure> {
-    let (what, schema) = match arguments.study {
-        true => ("study", abrade_study::erosion::schema()),
-        false => ("scene", abrade_scene::schema()),
+    let (what, schema) = match arguments {
+        SchemaArguments { study: true, .. } => ("study", abrade_study::erosion::schema()),
+        SchemaArguments { adhesive: true, .. } => ("scene", abrade_study::adhesive::scene_schema()),
+        SchemaArguments { map: true, .. } => ("map", abrade_study::adhesive::map_schema()),
+        _ => ("scene", abrade_scene::schema()),
     };
     if arguments.fields {
         return say(&fields(what, &abrade_scene::fields_of(&schema)));

@@ -57,6 +57,7 @@ pub(crate) fn failure(error: StudyError) -> Failure {
         StudyError::Reference { .. } | StudyError::Grain { .. } | StudyError::NoCases { .. } => {
             Failure::Input(error.into())
         }
+        StudyError::Adhesive(_) => Failure::Input(error.into()),
         StudyError::Run(_) | StudyError::Report(_) | StudyError::Nothing { .. } => {
             Failure::Run(error.into())
         }

@@ -14,27 +14,17 @@ use crate::study::failure;
 /// Makes the part of the study that is asked for, or merges the parts.
 pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let opened = open(&arguments.erosion)?;
-    if arguments.list {
+    if arguments.part.list {
         return list(&opened);
     }
-    if let Some(folders) = &arguments.merge {
+    if let Some(folders) = &arguments.part.merge {
         for folder in folders {
             erosion::gather(&opened.file, &opened.beside, folder, &opened.out).map_err(failure)?;
         }
         return opened.tell(&[]);
     }
-    let mut cases = opened.file.cases();
-    let all = cases.len();
-    if let Some(case) = arguments.case {
-        if case >= all {
-            let error = anyhow::anyhow!("there is no case {case}: the study has {all}, from 0");
-            return Err(Failure::Input(error));
-        }
-        cases.retain(|other| other.number == case);
-    }
-    if let Some([first, pace]) = arguments.shard {
-        cases.retain(|case| case.number % pace == first);
-    }
+    let all = opened.file.cases().len();
+    let cases = arguments.part.choose(opened.file.cases(), |case| case.number)?;
     let unmade = opened.make(&cases)?;
     let there = opened.file.cases().iter().filter(|case| opened.has(case)).count();
     let place = opened.out.display();

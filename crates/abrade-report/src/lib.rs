@@ -27,6 +27,8 @@ pub use error::{FileAction, ReportError};
 pub use history::History;
 pub use mesh::Mesh;
 pub use picture::gallery::{Crater, Gallery};
+pub use picture::regimes::{Boundary, Cell, Regimes};
+pub use picture::rounds::{Instant, Rounds};
 pub use picture::{Mark, Picture, SolidPicture};
 pub use pvd::Series;
 pub use summary::Summary;

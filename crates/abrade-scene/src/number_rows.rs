@@ -43,6 +43,28 @@ pub(crate) fn read(folder: &Path, what: &'static str, file: &str) -> Result<Rows
     parse(&path, &String::from_utf8_lossy(&bytes))
 }
 
+/// Pairs of numbers from `file`, which holds `what` and lies in `folder`: for files of other rooms.
+///
+/// # Errors
+/// What is wrong with it, in words: it cannot be read, or a line is not two finite numbers.
+pub fn number_pairs(
+    folder: &Path,
+    what: &'static str,
+    file: &str,
+) -> Result<Vec<[f64; 2]>, String> {
+    pairs(&read(folder, what, file).map_err(|trouble| trouble.to_string())?)
+}
+
+fn pairs(found: &Rows) -> Result<Vec<[f64; 2]>, String> {
+    let pair = |(row, line): (&Vec<f64>, &Line)| match row[..] {
+        [x, y] => Ok([x, y]),
+        _ => {
+            Err(format!("line {} of `{}` has {} numbers, not 2", line.number, line.file, row.len()))
+        }
+    };
+    found.rows.iter().zip(&found.lines).map(pair).collect()
+}
+
 fn parse(file: &str, text: &str) -> Result<Rows, RowsTrouble> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut rows = Rows::default();
@@ -70,6 +92,14 @@ fn parse(file: &str, text: &str) -> Result<Rows, RowsTrouble> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Fails for a line of another length that is cut, or a fault without its line.
+    #[test]
+    fn pairs_are_two_numbers_a_line() {
+        let of = |text: &str| pairs(&parse("line.csv", text).expect("rows"));
+        assert_eq!(of("0, 1\n2 3"), Ok(vec![[0.0, 1.0], [2.0, 3.0]]));
+        assert_eq!(of("0 1\n2"), Err("line 2 of `line.csv` has 1 numbers, not 2".into()));
+    }
 
     /// Fails for a reader that counts rows instead of lines, or reads a comment.
     #[test]

@@ -29,6 +29,9 @@ pub enum StudyError {
         /// The folder.
         folder: PathBuf,
     },
+    /// Asperities that cannot collide, or not to the end.
+    #[error(transparent)]
+    Adhesive(#[from] abrade_adhesive::AdhesiveError),
     /// A file could not be written.
     #[error(transparent)]
     Report(#[from] ReportError),

@@ -1,5 +1,6 @@
 //! The `abrade` command as its users see it.
 
+mod adhesive;
 mod bad_copies;
 mod bad_hardness;
 mod bad_motions;

@@ -4,14 +4,15 @@ use std::process::Command;
 
 use crate::run::{at, root, run};
 
-/// Fails for a scene that no longer runs, or whose energies no longer close.
+/// Fails for a scene that no longer runs, or whose energies no longer close. Those of asperities have a
+/// command of their own.
 #[test]
 fn every_scene_runs_and_its_energies_close() {
     for entry in glob("scenes") {
         let name =
             entry.strip_prefix(root().join("scenes")).expect("a scene").display().to_string();
-        if name == "paper/scratch.ron" {
-            // Run in full against LAMMPS.
+        // The scratch is run in full against LAMMPS.
+        if name == "paper/scratch.ron" || name.starts_with("adhesive/") {
             continue;
         }
         let summary = run(&name, &[]);

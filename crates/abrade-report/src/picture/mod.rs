@@ -14,6 +14,8 @@ pub(crate) mod gallery;
 mod letters;
 mod plan;
 mod raster;
+pub(crate) mod regimes;
+pub(crate) mod rounds;
 mod section;
 mod shading;
 mod slope;

@@ -48,6 +48,37 @@ pub fn write_surface(
     data.write(path)
 }
 
+/// A quantity at every point: its name, with the unit, and its values.
+pub type PointArray<'a> = (&'static str, &'a [f64]);
+
+/// Writes points of a plane, z = 0, with `arrays`, the first of which colours them; `joined` pairs of points
+/// that follow each other are lines.
+///
+/// # Errors
+/// An array of another length, or the file system refuses.
+pub fn write_plane(
+    path: &Path,
+    points: &[[f64; 2]],
+    arrays: &[PointArray],
+    joined: bool,
+) -> Result<(), ReportError> {
+    let mut data = PolyData::new(points.len());
+    for (at, (name, values)) in arrays.iter().enumerate() {
+        if values.len() != points.len() {
+            let (column, found, depths) = (*name, values.len(), points.len());
+            return Err(ReportError::Columns { column, found, depths });
+        }
+        let place = if at == 0 { Place::Scalars } else { Place::PointData };
+        data.add(place, Array::f64(name, values.iter().copied()));
+    }
+    data.points(points.iter().map(|[x, y]| Point3::new(*x, *y, 0.0)));
+    match joined {
+        true => data.segments(),
+        false => data.faces(&[])?,
+    }
+    data.write(path)
+}
+
 /// A body to draw.
 #[derive(Clone, Copy, Debug)]
 pub struct PlacedBody<'a> {

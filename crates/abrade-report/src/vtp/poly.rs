@@ -28,6 +28,7 @@ pub(super) enum Place {
     Normals,
     Points,
     Verts,
+    Lines,
     Polys,
 }
 
@@ -35,6 +36,7 @@ pub(super) enum Place {
 pub(super) struct PolyData {
     points: usize,
     verts: usize,
+    lines: usize,
     polys: usize,
     arrays: Vec<(Place, Array)>,
 }
@@ -67,7 +69,7 @@ impl Array {
 
 impl PolyData {
     pub(super) fn new(points: usize) -> Self {
-        Self { points, verts: 0, polys: 0, arrays: Vec::new() }
+        Self { points, verts: 0, lines: 0, polys: 0, arrays: Vec::new() }
     }
 
     pub(super) fn add(&mut self, place: Place, array: Array) {
@@ -93,6 +95,14 @@ impl PolyData {
         Ok(())
     }
 
+    /// Lines from each even point to the next one.
+    pub(super) fn segments(&mut self) {
+        self.lines = self.points / 2;
+        let lines = self.lines as i64;
+        self.add(Place::Lines, Array::indices("connectivity", 0..2 * lines));
+        self.add(Place::Lines, Array::indices("offsets", (1..=lines).map(|line| 2 * line)));
+    }
+
     pub(super) fn write(&self, path: &Path) -> Result<(), ReportError> {
         let mut file = PartialFile::create(path)?;
         let (head, order) = self.head();
@@ -108,9 +118,9 @@ impl PolyData {
         let mut text = String::from(HEAD);
         let (mut offset, mut order) = (0, Vec::new());
         let piece = format!(
-            "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"0\" \
+            "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" \
              NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n",
-            self.points, self.verts, self.polys
+            self.points, self.verts, self.lines, self.polys
         );
         text.push_str(&piece);
         for (element, places) in ELEMENTS {
@@ -163,9 +173,10 @@ pub(super) const DATA: &str = "<AppendedData encoding=\"raw\">\n_";
 
 const FOOT: &[u8] = b"\n</AppendedData>\n</VTKFile>\n";
 
-const ELEMENTS: [(&str, &[Place]); 4] = [
+const ELEMENTS: [(&str, &[Place]); 5] = [
     ("PointData", &[Place::PointData, Place::Scalars, Place::Normals]),
     ("Points", &[Place::Points]),
     ("Verts", &[Place::Verts]),
+    ("Lines", &[Place::Lines]),
     ("Polys", &[Place::Polys]),
 ];

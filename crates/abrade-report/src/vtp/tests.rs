@@ -159,3 +159,19 @@ fn bodies_share_a_file_and_keep_their_faces() {
     let velocity = floats(&file, "PointData", "velocity_m_s");
     assert_eq!(velocity[9..], [1.0, 0.0, 0.0, 1.0, 2.0, 0.0, -1.0, 0.0, 0.0]);
 }
+
+/// Fails for lines that join other points than those they come from, or an array cut short.
+#[test]
+fn joined_points_are_lines() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("links_0000.vtp");
+    let points = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 2.0]];
+    let stress = [1.0, 1.0, -3.0, -3.0];
+    write_plane(&path, &points, &[("normal_Pa", &stress)], true).expect("a file");
+    let file = fs::read(&path).expect("the file");
+    assert_eq!(integers(&file, "Lines", "connectivity"), [0, 1, 2, 3]);
+    assert_eq!(integers(&file, "Lines", "offsets"), [2, 4]);
+    assert_eq!(floats(&file, "PointData", "normal_Pa"), stress);
+    let short = write_plane(&path, &points, &[("normal_Pa", &stress[..3])], true);
+    assert!(matches!(short, Err(ReportError::Columns { found: 3, depths: 4, .. })));
+}

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::case::{Case, Made};
 use super::file::StudyFile;
 use super::impact::Impact;
+use crate::fingerprint::Fingerprint;
 
 /// First line of a case's file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -108,25 +109,13 @@ impl Store {
     }
 }
 
-/// A number that changes with version, study and files that it names; builds of one version are alike to it.
+/// A number that changes with version, study and files that it names.
 fn fingerprint(file: &StudyFile, beside: &Path) -> String {
-    let mut hash = Fnv(0xcbf2_9ce4_8422_2325);
-    hash.add(env!("CARGO_PKG_VERSION").as_bytes());
+    let mut hash = Fingerprint::new();
     hash.add(format!("{file:?}").as_bytes());
     for name in file.files() {
         // A file that cannot be read is refused when its grain is made.
         hash.add(&std::fs::read(beside.join(name)).unwrap_or_default());
     }
-    format!("{:016x}", hash.0)
-}
-
-/// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo), the same on every machine.
-struct Fnv(u64);
-
-impl Fnv {
-    fn add(&mut self, bytes: &[u8]) {
-        for byte in bytes {
-            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-        }
-    }
+    hash.text()
 }

@@ -1,0 +1,129 @@
+//! `abrade adhesive`.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use abrade_study::adhesive::{self, MapFile};
+use anyhow::Context;
+
+use crate::arguments::{AdhesiveMapArguments, AdhesiveRunArguments, PartArguments};
+use crate::failure::Failure;
+use crate::progress::Bar;
+use crate::study::failure;
+use crate::{interrupt, output_folder, say};
+
+/// Runs a scene of two asperities and says what became of them.
+pub(crate) fn run(arguments: &AdhesiveRunArguments) -> Result<(), Failure> {
+    let file = adhesive::load_scene(&arguments.scene.scene, &arguments.scene.sets)?;
+    let folder = output_folder::chosen(arguments.out.as_deref(), &file.name);
+    output_folder::make(&folder)?;
+    let stop = interrupt::flag();
+    let mut bar = Bar::new(&stop);
+    let ended = adhesive::run(&file, &folder, &mut bar);
+    bar.clear();
+    let ended = ended.map_err(failure)?;
+    match arguments.json {
+        true => say::say(&format!("{:#}\n", ended.summary.to_json()))?,
+        false => {
+            let (text, place) = (ended.summary.text(), folder.display());
+            say::say(&format!(
+                "{text}elements.pvd, links.pvd, timeseries.csv, asperities.png and summary.json are in \
+                 {place}\n"
+            ))?;
+        }
+    }
+    match (ended.failure, ended.interrupted) {
+        (Some(error), _) => Err(Failure::Run(error.into())),
+        (None, true) => Err(Failure::Interrupted),
+        (None, false) => Ok(()),
+    }
+}
+
+/// A map, and where its results lie.
+struct Opened {
+    file: MapFile,
+    out: PathBuf,
+}
+
+/// Makes a map, or the part of it that is asked for.
+pub(crate) fn map(arguments: &AdhesiveMapArguments) -> Result<(), Failure> {
+    let file = adhesive::load_map(&arguments.study, &arguments.sets)?;
+    let out = output_folder::chosen(arguments.out.as_deref(), &file.name);
+    if let Some(jobs) = arguments.jobs {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(jobs)).build_global();
+        pool.context("no threads").map_err(Failure::Run)?;
+    }
+    let opened = Opened { file, out };
+    let part = &arguments.part;
+    if part.list {
+        return opened.list();
+    }
+    if let Some(folders) = &part.merge {
+        for folder in folders {
+            adhesive::gather(&opened.file, folder, &opened.out).map_err(failure)?;
+        }
+        return opened.tell();
+    }
+    opened.make(part)?;
+    match part.is_whole() {
+        true => opened.tell(),
+        false => opened.count(),
+    }
+}
+
+impl Opened {
+    fn make(&self, part: &PartArguments) -> Result<(), Failure> {
+        let cases = part.choose(self.file.cases(), |case| case.number)?;
+        output_folder::make(&self.out)?;
+        let stop = interrupt::flag();
+        let mut bar = Bar::new(&stop);
+        let made = adhesive::make(&self.file, &cases, &self.out, &mut bar);
+        bar.clear();
+        made.map_err(failure)
+    }
+
+    fn list(&self) -> Result<(), Failure> {
+        let mut text = String::new();
+        for case in self.file.cases() {
+            let is_there = adhesive::is_made(&self.file, &case, &self.out);
+            let _ = writeln!(
+                text,
+                "{:>5}  {:<5}  a {:<5} sigma_j {:>9.3e} Pa  sigma_0/sigma_j {:<6} gap {}",
+                case.number,
+                if is_there { "there" } else { "-" },
+                case.strength_ratio,
+                case.shear_strength,
+                case.adhesion_ratio,
+                case.gap
+            );
+        }
+        say::say(&text)
+    }
+
+    fn count(&self) -> Result<(), Failure> {
+        let cases = self.file.cases();
+        let is_there = |case: &&adhesive::Case| adhesive::is_made(&self.file, case, &self.out);
+        let there = cases.iter().filter(is_there).count();
+        let (all, place) = (cases.len(), self.out.display());
+        say::say(&format!("{there} of {all} cases are in {place}\n"))
+    }
+
+    /// Writes the files of the cases that are there, and shows them.
+    fn tell(&self) -> Result<(), Failure> {
+        let map = adhesive::result(&self.file, &self.out);
+        output_folder::make(&self.out)?;
+        adhesive::write(&map, &self.out).map_err(failure)?;
+        let place = self.out.display();
+        say::say(&format!(
+            "{}\ncases.csv, points.csv, boundary.csv and map.png are in {place}\n",
+            map.table()
+        ))?;
+        match map.missing() {
+            0 => Ok(()),
+            missing => Err(Failure::Run(anyhow::anyhow!(
+                "{missing} of {} cases are missing",
+                self.file.cases().len()
+            ))),
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! `adhesive run`, `adhesive map`.
+
+use std::path::Path;
+
+use super::Folder;
+
+const SCENE: &str = r#"(version: 1, name: "brittle",
+  solid: (strength_ratio: 1.7, adhesion: "0 MPa"), bodies: (travel: "60 um"), frames: 2, rows: 5)"#;
+
+/// Two points of one gap and one of them from another, cut short.
+const MAP: &str = r#"(version: 1, name: "small map", bodies: (travel: "40 um"),
+  strength_ratios: [1.0, 1.7], adhesion_ratios: [0.4, 1.6], gaps: [1.2, 1.5])"#;
+
+/// Fails for a run without one of its files, a summary that is not the run's, or half a file left over.
+#[test]
+fn a_collision_leaves_its_files_and_says_what_became_of_the_asperities() {
+    let folder = Folder::new("adhesive");
+    folder.write("bodies.ron", SCENE);
+    let said = folder.abrade(&["adhesive", "run", "bodies.ron", "--json"]);
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    let summary: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+    assert_eq!((&summary["complete"], &summary["elements"]), (&true.into(), &3586.into()));
+    assert_eq!(summary["mode"], "slipping");
+    assert!(summary["energy"]["drive_J_m"].as_f64().unwrap() > 0.0);
+    let place = folder.0.join("runs/brittle");
+    let mut names: Vec<String> = std::fs::read_dir(&place)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    let expected = ["asperities.png", "elements.pvd", "elements_0000.vtp", "elements_0001.vtp"];
+    assert_eq!(names[..4], expected);
+    assert!(names.iter().all(|name| !name.contains("partial")), "{names:?}");
+    let rows = std::fs::read_to_string(place.join("timeseries.csv")).unwrap();
+    assert_eq!(rows.lines().count(), 1 + 5 + 1, "head, rows, end: {rows}");
+    assert!(rows.lines().all(|row| row.split(',').count() == 13), "{rows}");
+}
+
+/// Fails for a fault that is found only when the bodies move, or is shown in another place.
+#[test]
+fn faults_are_shown_where_they_stand() {
+    let folder = Folder::new("adhesive_bad");
+    folder.write("bodies.ron", SCENE);
+    folder.write("map.ron", MAP);
+    folder.write("line.csv", "0 0\n1\n");
+    for (arguments, told) in [
+        (
+            ["run", "bodies.ron", "--set", "solid.adhesion=\"-1 MPa\""],
+            "`solid.adhesion` is out of range",
+        ),
+        (["run", "bodies.ron", "--set", "solid.adhesion=\"1 mm\""], "a pressure"),
+        (["run", "bodies.ron", "--set", "bodies.overlp=0.3"], "did you mean `overlap`?"),
+        (["run", "bodies.ron", "--set", "outline=\"line.csv\""], "line 2 of `line.csv`"),
+        (["run", "bodies.ron", "--set", "bodies.gap=-4.0"], "the bodies overlap"),
+        (["map", "map.ron", "--set", "gaps=[1.2,1.2]"], "`gaps.1` is there twice"),
+        (["map", "map.ron", "--case", "17"], "there is no case 17"),
+    ] {
+        let said = folder.abrade(&[&["adhesive"], &arguments[..]].concat());
+        assert_eq!(said.code, Some(2), "{arguments:?}: {}", said.err);
+        assert!(said.err.contains(told), "{arguments:?}: {}", said.err);
+    }
+}
+
+/// Fails for a map that is made again where it was broken off, or whose parts do not come to the same bytes.
+#[test]
+fn a_map_is_made_whole_or_in_parts_on_any_number_of_threads() {
+    let folder = Folder::new("adhesive_map");
+    folder.write("map.ron", MAP);
+    let read = |place: &str| std::fs::read(folder.0.join(place).join("cases.csv")).unwrap();
+    let said = folder.abrade(&["adhesive", "map", "map.ron", "--jobs", "2", "--out", "whole"]);
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    assert!(said.out.contains("2 slipping"), "{}", said.out);
+    for part in ["0/2", "1/2"] {
+        let out = format!("part{}", &part[..1]);
+        let arguments =
+            ["adhesive", "map", "map.ron", "--shard", part, "--jobs", "1", "--out", &out];
+        assert_eq!(folder.abrade(&arguments).code, Some(0));
+    }
+    let merge = ["adhesive", "map", "map.ron", "--out", "merged", "--merge", "part0", "part1"];
+    assert_eq!(folder.abrade(&merge).code, Some(0));
+    assert_eq!(read("whole"), read("merged"));
+    // sigma_0 = 1.6 sigma_j lies above the tensile strength where a = 1.7.
+    assert_eq!(read("whole").iter().filter(|byte| **byte == b'\n').count(), 1 + 6);
+    let case = folder.0.join("whole/cases/00003.json");
+    let before = modified(&case);
+    let other = folder.0.join("whole/cases/00004.json");
+    std::fs::remove_file(&other).unwrap();
+    assert_eq!(folder.abrade(&["adhesive", "map", "map.ron", "--out", "whole"]).code, Some(0));
+    assert_eq!(modified(&case), before);
+    assert!(other.exists());
+    assert_eq!(read("whole"), read("merged"));
+}
+
+fn modified(path: &Path) -> std::time::SystemTime {
+    std::fs::metadata(path).unwrap().modified().unwrap()
+}

@@ -1,0 +1,118 @@
+//! What can be wrong with a scene or a map whose words are right.
+
+use std::path::Path;
+
+use abrade::ParameterError;
+use abrade_adhesive::{Asperities, Profile, Solid};
+use abrade_scene::{Document, FileKind, SceneError, folder_name_fault, number_pairs};
+
+use super::file::{MapFile, SceneFile, VERSION};
+
+/// Most cases of a map: one takes seconds.
+const CASES: usize = 1_000_000;
+
+/// A scene without a known fault; its outline, if it names one, is in `bodies.profile`.
+///
+/// # Errors
+/// Everything that is wrong with the file at `path`, with the `sets` applied.
+pub fn load_scene(path: &Path, sets: &[String]) -> Result<SceneFile, SceneError> {
+    let kind = FileKind { name: "scene", version: VERSION };
+    let mut document = Document::<SceneFile>::load(path, sets, kind)?;
+    if let Some(outline) = document.value.outline.clone() {
+        let folder = path.parent().unwrap_or(Path::new("."));
+        match number_pairs(folder, "outline", &outline) {
+            Ok(points) => document.value.bodies.profile = Profile::Line { points },
+            Err(reason) => document.refuse(&["outline"], reason, ""),
+        }
+    }
+    let file = document.value.clone();
+    check_name(&mut document, &file.name);
+    check_solid(&mut document, &file.solid);
+    check_bodies(&mut document, &file.bodies);
+    for (field, value, most) in [("frames", file.frames, 10_000.0), ("rows", file.rows, 1e7)] {
+        if let Some(error) = ParameterError::within(field, value.into(), 1.0, most) {
+            document.out_of_range(&[], &error);
+        }
+    }
+    document.finish()
+}
+
+/// A map without a known fault, with the solid's own ratio and strength where it names none.
+///
+/// # Errors
+/// Everything that is wrong with the file at `path`, with the `sets` applied.
+pub fn load_map(path: &Path, sets: &[String]) -> Result<MapFile, SceneError> {
+    let kind = FileKind { name: "map", version: VERSION };
+    let mut document = Document::<MapFile>::load(path, sets, kind)?;
+    let solid = document.value.solid;
+    if document.value.strength_ratios.is_empty() {
+        document.value.strength_ratios = vec![solid.strength_ratio];
+    }
+    if document.value.shear_strengths.is_empty() {
+        document.value.shear_strengths = vec![solid.shear_strength];
+    }
+    let file = document.value.clone();
+    check_name(&mut document, &file.name);
+    check_solid(&mut document, &solid);
+    check_bodies(&mut document, &file.bodies);
+    for (field, values, [low, high]) in [
+        ("strength_ratios", &file.strength_ratios, [1.0, 1000.0]),
+        ("shear_strengths", &file.shear_strengths, [f64::MIN_POSITIVE, f64::MAX]),
+        ("adhesion_ratios", &file.adhesion_ratios, [0.0, f64::MAX]),
+        ("gaps", &file.gaps, [-1e5, 1e5]),
+    ] {
+        check_list(&mut document, field, values, [low, high]);
+    }
+    let sizes = [&file.strength_ratios, &file.shear_strengths, &file.adhesion_ratios, &file.gaps];
+    let count: f64 = sizes.iter().map(|list| list.len() as f64).product();
+    if count > CASES as f64 {
+        let message = format!("the map would have {count:.1e} cases");
+        document.refuse(&["gaps"], message, format!("at most {CASES} are allowed"));
+    }
+    document.finish()
+}
+
+fn check_list(
+    document: &mut Document<MapFile>,
+    field: &'static str,
+    values: &[f64],
+    [low, high]: [f64; 2],
+) {
+    if values.is_empty() {
+        document.refuse(&[field], format!("`{field}` is empty"), "give at least one");
+    }
+    for (at, value) in values.iter().enumerate() {
+        let place = at.to_string();
+        if let Some(error) = ParameterError::within(field, *value, low, high) {
+            let label = format!("must be {}", error.allowed);
+            document.refuse(&[field, &place], format!("`{field}.{at}` is out of range"), label);
+        }
+        if values[..at].contains(value) {
+            let message = format!("`{field}.{at}` is there twice");
+            document.refuse(&[field, &place], message, "leave it out");
+        }
+    }
+}
+
+fn check_name<T>(document: &mut Document<T>, name: &str) {
+    if let Some(fault) = folder_name_fault(name) {
+        document.refuse(&["name"], "`name` cannot be the name of a folder", fault);
+    }
+}
+
+fn check_solid<T>(document: &mut Document<T>, solid: &Solid) {
+    for error in solid.check() {
+        document.out_of_range(&["solid"], &error);
+    }
+}
+
+fn check_bodies<T>(document: &mut Document<T>, bodies: &Asperities) {
+    for error in bodies.check() {
+        let path: &[&str] = match error.field {
+            "top" | "height" | "side" | "points" => &["bodies", "profile"],
+            "angle" | "amplitude" => &["bodies", "packing"],
+            _ => &["bodies"],
+        };
+        document.out_of_range(path, &error);
+    }
+}

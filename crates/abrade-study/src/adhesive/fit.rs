@@ -1,0 +1,108 @@
+//! The adhesion at which half of the collisions grind: a logistic curve through the shares, by maximum
+//! likelihood, with the interval of the profile likelihood.
+
+/// Half the drop of the log likelihood at the ends of a 95 % interval: the quantile of chi squared, 3.84, over 2.
+const DROP: f64 = 1.92;
+/// Places that are tried per range, and widths per decade.
+const PLACES: usize = 400;
+/// Widths of the curve that are tried, as shares of the range.
+const WIDTHS: [f64; 9] = [0.003, 0.006, 0.012, 0.025, 0.05, 0.1, 0.2, 0.4, 0.8];
+
+/// A boundary, in the units of what varies. An end at the range's own means that the runs do not bound it
+/// there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Boundary {
+    /// Where the share is one half.
+    pub at: f64,
+    /// The ends of the 95 % interval.
+    pub interval: [f64; 2],
+}
+
+/// Runs at one value: how many, and how many of them came out so.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Share {
+    pub(crate) value: f64,
+    pub(crate) runs: usize,
+    pub(crate) hits: usize,
+}
+
+/// The boundary above which runs come out so; none where all or no runs do.
+pub(crate) fn boundary(shares: &[Share]) -> Option<Boundary> {
+    let values = shares.iter().map(|share| share.value);
+    let [low, high] =
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(v), h.max(v)]);
+    let hits: usize = shares.iter().map(|share| share.hits).sum();
+    let runs: usize = shares.iter().map(|share| share.runs).sum();
+    if hits == 0 || hits == runs || high <= low {
+        return None;
+    }
+    let place = |at: usize| low + (high - low) * at as f64 / PLACES as f64;
+    let profile: Vec<f64> = (0..=PLACES)
+        .map(|at| {
+            let of = |width: &f64| likelihood(shares, place(at), width * (high - low));
+            WIDTHS.iter().map(of).fold(f64::NEG_INFINITY, f64::max)
+        })
+        .collect();
+    let best = profile.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    // Of places that are as likely, the middle: shares that part sharply leave a stretch of them.
+    let near = |drop: f64| {
+        let fine = |at: &usize| profile[*at] >= best - drop;
+        let first = (0..=PLACES).find(fine).unwrap_or(0);
+        let last = (0..=PLACES).rev().find(fine).unwrap_or(PLACES);
+        [place(first), place(last)]
+    };
+    let [from, to] = near(0.02);
+    Some(Boundary { at: 0.5 * (from + to), interval: near(DROP) })
+}
+
+/// Log likelihood of the shares under a logistic curve.
+fn likelihood(shares: &[Share], middle: f64, width: f64) -> f64 {
+    let of = |share: &Share| {
+        let x = ((share.value - middle) / width).clamp(-500.0, 500.0);
+        let (hit, miss) = (-(-x).exp().ln_1p(), -x.exp().ln_1p());
+        share.hits as f64 * hit + (share.runs - share.hits) as f64 * miss
+    };
+    shares.iter().map(of).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shares(rows: &[(f64, usize)], runs: usize) -> Vec<Share> {
+        rows.iter().map(|&(value, hits)| Share { value, runs, hits }).collect()
+    }
+
+    /// Fails for a fit that runs away where shares part sharply, or that hides how far apart they are.
+    #[test]
+    fn a_sharp_change_lies_half_way_and_its_interval_spans_the_step() {
+        let found = boundary(&shares(&[(0.0, 0), (0.5, 0), (1.0, 5), (1.5, 5)], 5)).unwrap();
+        assert!((found.at - 0.75).abs() < 0.05, "{found:?}");
+        assert!(found.interval[0] < 0.62 && found.interval[1] > 0.88, "{found:?}");
+        assert!(found.interval[0] > 0.3 && found.interval[1] < 1.2, "{found:?}");
+    }
+
+    /// Fails for an interval that does not shrink with the number of runs: a curve of width 0.2 about 1.
+    #[test]
+    fn more_runs_narrow_the_interval() {
+        let curve = |value: f64| 1.0 / (1.0 + (-(value - 1.0) / 0.2_f64).exp());
+        let of = |runs: usize| {
+            let rows: Vec<(f64, usize)> = (0..9)
+                .map(|k| 0.25 * f64::from(k))
+                .map(|value| (value, (curve(value) * runs as f64).round() as usize))
+                .collect();
+            boundary(&shares(&rows, runs)).unwrap()
+        };
+        let width = |b: Boundary| b.interval[1] - b.interval[0];
+        let (few, many) = (of(5), of(80));
+        assert!((many.at - 1.0).abs() < 0.03, "{many:?}");
+        assert!(width(few) > 3.0 * width(many), "{few:?} {many:?}");
+    }
+
+    /// Fails for a boundary where there is none.
+    #[test]
+    fn all_or_none_has_no_boundary() {
+        assert_eq!(boundary(&shares(&[(0.0, 0), (1.0, 0)], 5)), None);
+        assert_eq!(boundary(&shares(&[(0.0, 5), (1.0, 5)], 5)), None);
+    }
+}

@@ -1,0 +1,161 @@
+//! What the cases of a map come to: shares of the modes at its points, and where grinding begins.
+
+use std::path::Path;
+
+use abrade_adhesive::{Figures, Mode};
+
+use super::case::{self, Case, Made};
+use super::file::MapFile;
+use super::fit::{self, Boundary, Share};
+
+/// The modes in the order of the map's colours.
+pub(crate) const MODES: [Mode; 6] = [
+    Mode::Slipping,
+    Mode::Cleavage,
+    Mode::Grinding,
+    Mode::Breakaway,
+    Mode::GrindingAndCleavage,
+    Mode::GrindingAndBreakaway,
+];
+
+/// The cases that are there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Map {
+    /// The map's file.
+    pub file: MapFile,
+    /// The cases and what became of each.
+    pub cases: Vec<(Case, Made)>,
+    /// Its points, with one case or more each.
+    pub points: Vec<Point>,
+}
+
+/// One point of a map, over all gaps.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Point {
+    /// a [-].
+    pub strength_ratio: f64,
+    /// sigma_j [Pa].
+    pub shear_strength: f64,
+    /// sigma_0 / sigma_j [-].
+    pub adhesion_ratio: f64,
+    /// Cases that came to their end.
+    pub runs: usize,
+    /// Cases that ended early.
+    pub failed: usize,
+    /// Of those that did not: in each mode, ground, split.
+    pub modes: [usize; 6],
+    /// Cases whose asperities were ground.
+    pub ground: usize,
+    /// Cases in which a large piece came off.
+    pub split: usize,
+    /// Means of the share that was ground, the largest piece and the share that was worn [-].
+    pub means: [f64; 3],
+}
+
+/// What the cases in the results folder `out` come to.
+pub fn result(file: &MapFile, out: &Path) -> Map {
+    let made = |case: Case| case::read(file, &case, out).map(|made| (case, made));
+    let cases: Vec<(Case, Made)> = file.cases().into_iter().filter_map(made).collect();
+    let mut points = Vec::new();
+    for &strength_ratio in &file.strength_ratios {
+        for &shear_strength in &file.shear_strengths {
+            for &adhesion_ratio in &file.adhesion_ratios {
+                let mut point =
+                    Point { strength_ratio, shear_strength, adhesion_ratio, ..Point::default() };
+                point.count(&cases);
+                if point.runs + point.failed > 0 {
+                    points.push(point);
+                }
+            }
+        }
+    }
+    Map { file: file.clone(), cases, points }
+}
+
+impl Point {
+    fn count(&mut self, cases: &[(Case, Made)]) {
+        let is_own = |case: &Case| {
+            case.strength_ratio == self.strength_ratio
+                && case.shear_strength == self.shear_strength
+                && case.adhesion_ratio == self.adhesion_ratio
+        };
+        let own: Vec<&Made> =
+            cases.iter().filter(|(case, _)| is_own(case)).map(|(_, made)| made).collect();
+        let figures: Vec<&Figures> = own.iter().filter_map(|made| made.as_ref().ok()).collect();
+        self.runs = figures.len();
+        self.failed = own.len() - figures.len();
+        for figures in &figures {
+            let mode = MODES.iter().position(|mode| *mode == figures.mode()).unwrap_or(0);
+            self.modes[mode] += 1;
+            self.ground += usize::from(figures.is_ground());
+            self.split += usize::from(figures.is_split());
+        }
+        let mean = |of: fn(&Figures) -> f64| {
+            figures.iter().map(|figures| of(figures)).sum::<f64>() / self.runs.max(1) as f64
+        };
+        self.means = [mean(|f| f.ground), mean(|f| f.largest_piece), mean(|f| f.worn)];
+    }
+}
+
+impl Map {
+    /// Number of cases that are missing.
+    pub fn missing(&self) -> usize {
+        self.file.cases().len() - self.cases.len()
+    }
+
+    /// Where grinding begins along sigma_0 / sigma_j, for each a and sigma_j; none where all points grind
+    /// or none.
+    pub fn boundaries(&self) -> Vec<(f64, f64, Option<Boundary>)> {
+        let mut found = Vec::new();
+        for &ratio in &self.file.strength_ratios {
+            for &strength in &self.file.shear_strengths {
+                let is_own = |p: &&Point| p.strength_ratio == ratio && p.shear_strength == strength;
+                let share =
+                    |p: &Point| Share { value: p.adhesion_ratio, runs: p.runs, hits: p.ground };
+                let shares: Vec<Share> = self.points.iter().filter(is_own).map(share).collect();
+                found.push((ratio, strength, fit::boundary(&shares)));
+            }
+        }
+        found
+    }
+
+    /// The points as a table to read.
+    pub fn table(&self) -> String {
+        let mut text = "     a  sigma_j MPa  s0/sj  runs  ground  split  modes\n".to_owned();
+        for point in &self.points {
+            let modes: Vec<String> = MODES
+                .iter()
+                .zip(point.modes)
+                .filter(|(_, count)| *count > 0)
+                .map(|(mode, count)| format!("{count} {}", mode.name()))
+                .collect();
+            let failed = match point.failed {
+                0 => String::new(),
+                count => format!("; {count} ended early"),
+            };
+            text += &format!(
+                "{:6.2} {:12.3} {:6.3} {:5} {:7} {:6}  {}{failed}\n",
+                point.strength_ratio,
+                point.shear_strength / 1e6,
+                point.adhesion_ratio,
+                point.runs,
+                point.ground,
+                point.split,
+                modes.join(", "),
+            );
+        }
+        for (ratio, strength, boundary) in self.boundaries() {
+            let (ratio, strength) = (format!("a = {ratio}"), strength / 1e6);
+            text += &match boundary {
+                Some(Boundary { at, interval: [low, high] }) => format!(
+                    "{ratio}, sigma_j {strength} MPa: half of the runs grind at sigma_0/sigma_j = \
+                     {at:.2} ({low:.2} to {high:.2})\n"
+                ),
+                None => {
+                    format!("{ratio}, sigma_j {strength} MPa: no boundary among these points\n")
+                }
+            };
+        }
+        text
+    }
+}

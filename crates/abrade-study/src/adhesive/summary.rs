@@ -1,0 +1,123 @@
+//! `summary.json`: the label of a collision, its figures, loads and energies.
+
+use std::path::Path;
+
+use abrade_adhesive::{AdhesiveError, Collision, Figures, Ledger};
+use abrade_report::{ReportError, atomic};
+use serde_json::{Value, json};
+
+use super::file::SceneFile;
+
+/// What came of a collision.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    /// Name of the scene.
+    pub name: String,
+    /// Share of the travel that was done [-].
+    pub share: f64,
+    /// Why it ended before, if it did.
+    pub failure: Option<String>,
+    /// Steps.
+    pub steps: u64,
+    /// Elements.
+    pub elements: usize,
+    /// What became of the asperities.
+    pub figures: Figures,
+    /// Mean force of the lower body's links on its rigid row [N/m].
+    pub mean_load: [f64; 2],
+    /// Where the energy is and went [J/m].
+    pub ledger: Ledger,
+}
+
+impl Summary {
+    pub(crate) fn of(
+        file: &SceneFile,
+        collision: &Collision,
+        failure: Option<&AdhesiveError>,
+    ) -> Self {
+        let simulation = collision.simulation();
+        Self {
+            name: file.name.clone(),
+            share: collision.share(),
+            failure: failure.map(ToString::to_string),
+            steps: (simulation.time() / simulation.step_length()).round() as u64,
+            elements: simulation.count(),
+            figures: collision.figures(),
+            mean_load: collision.mean_load(),
+            ledger: simulation.ledger(),
+        }
+    }
+
+    /// As JSON, a unit in every name.
+    pub fn to_json(&self) -> Value {
+        let (figures, ledger) = (&self.figures, &self.ledger);
+        json!({
+            "name": self.name,
+            "complete": self.share >= 1.0,
+            "failure": self.failure,
+            "mode": figures.mode().name(),
+            "is_ground": figures.is_ground(),
+            "is_split": figures.is_split(),
+            "figures": figures_json(figures),
+            "elements": self.elements,
+            "steps": self.steps,
+            "mean_force_x_N_m": self.mean_load[0],
+            "mean_force_y_N_m": self.mean_load[1],
+            "energy": {
+                "kinetic_J_m": ledger.kinetic,
+                "elastic_J_m": ledger.elastic,
+                "plastic_J_m": ledger.plastic,
+                "viscous_J_m": ledger.viscous,
+                "drag_J_m": ledger.drag,
+                "released_J_m": ledger.released,
+                "drive_J_m": ledger.drive,
+            },
+        })
+    }
+
+    /// The figures that a person looks for first, a line each.
+    pub fn text(&self) -> String {
+        let figures = &self.figures;
+        let failure =
+            self.failure.as_ref().map_or(String::new(), |why| format!("ended early: {why}\n"));
+        format!(
+            "{failure}{}: {}\n  ground {:.3}, largest piece {:.3} of an asperity, {:.2} ground rows, worn {:.3}\n  \
+             transferred {:.3}, debris {:.3}, links failed {:.3}, joined: {}\n  \
+             mean load {:.0} N/m along, {:.0} N/m across; {} elements, {} steps\n",
+            self.name,
+            figures.mode().name(),
+            figures.ground,
+            figures.largest_piece,
+            figures.ground_rows,
+            figures.worn,
+            figures.transferred,
+            figures.debris,
+            figures.failed,
+            if figures.are_joined { "yes" } else { "no" },
+            -self.mean_load[0],
+            -self.mean_load[1],
+            self.elements,
+            self.steps,
+        )
+    }
+
+    pub(crate) fn write(&self, folder: &Path) -> Result<(), ReportError> {
+        let text = format!("{:#}\n", self.to_json());
+        atomic::write(&folder.join("summary.json"), text.as_bytes())
+    }
+}
+
+/// The figures, by the names of their columns.
+pub(crate) fn figures_json(figures: &Figures) -> Value {
+    json!({
+        "ground": figures.ground,
+        "largest_piece": figures.largest_piece,
+        "ground_rows": figures.ground_rows,
+        "worn": figures.worn,
+        "transferred": figures.transferred,
+        "debris": figures.debris,
+        "failed": figures.failed,
+        "parted": figures.parted,
+        "are_joined": figures.are_joined,
+    })
+}
