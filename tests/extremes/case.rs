@@ -41,6 +41,22 @@ pub enum Flow {
     NormalPressure,
 }
 
+/// What a run may spend.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Means {
+    /// Target relative error of the wear volume [-].
+    pub accuracy: f64,
+    /// Contact steps of one step of the embedder.
+    pub step_limit: u64,
+    /// Contact steps of a case after which it counts as long.
+    pub long: u64,
+}
+
+impl Means {
+    /// Of the matrix.
+    pub const USUAL: Self = Self { accuracy: 1e-3, step_limit: 4_000, long: 8_000 };
+}
+
 /// One body that strikes one surface.
 #[derive(Clone, Debug)]
 pub struct Case {
@@ -77,6 +93,7 @@ pub struct Case {
     pub gap_steps: f64,
     /// Traction over hardness, and range over the contact radius [-], of a surface that adheres.
     pub adhesion: Option<[f64; 2]>,
+    pub means: Means,
 }
 
 /// Numbers from a seed: splitmix64 (Steele, Lea & Flood 2014).
@@ -160,6 +177,7 @@ impl Case {
             rotation: draw.turn(),
             gap_steps: draw.within(0.3, 3.0),
             adhesion: None,
+            means: Means::USUAL,
         }
     }
 

@@ -10,6 +10,7 @@ mod case;
 mod chart;
 mod double;
 mod finding;
+mod finer;
 mod run;
 mod single;
 mod solid;
@@ -20,31 +21,36 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use case::Case;
 use finding::Finding;
 
-/// Cases from `first` on, spread over the processors, in the order of their numbers.
+/// Cases from `first` on, in the order of their numbers.
 fn findings(first: u64, count: u64) -> Vec<Finding> {
     findings_of(Case::numbered, first, count)
 }
 
 /// The same for cases of another make.
 fn findings_of(make: fn(u64) -> Case, first: u64, count: u64) -> Vec<Finding> {
-    let next = AtomicU64::new(first);
+    spread(count, |i| finding::of(make(first + i)))
+}
+
+/// `count` answers in their order, worked out on all processors.
+fn spread<T: Send>(count: u64, answer: impl Fn(u64) -> T + Sync) -> Vec<T> {
+    let next = AtomicU64::new(0);
     let work = || {
         let mut found = Vec::new();
         loop {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            if number >= first + count {
+            let i = next.fetch_add(1, Ordering::Relaxed);
+            if i >= count {
                 return found;
             }
-            found.push(finding::of(make(number)));
+            found.push((i, answer(i)));
         }
     };
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let mut all: Vec<Finding> = std::thread::scope(|scope| {
+    let mut all: Vec<(u64, T)> = std::thread::scope(|scope| {
         let running: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
         running.into_iter().flat_map(|thread| thread.join().expect("no case panics here")).collect()
     });
-    all.sort_by_key(|finding| finding.case.number);
-    all
+    all.sort_by_key(|(i, _)| *i);
+    all.into_iter().map(|(_, answer)| answer).collect()
 }
 
 fn assert_lawful(findings: &[Finding]) {
@@ -112,6 +118,30 @@ fn extremes_of_rare_kinds() {
         // They are within 0.4 %.
         assert!(finding.numerical < 0.01, "{}: {:e}", finding.case.number, finding.numerical);
     }
+}
+
+/// Prints how cases end that had no result, once their steps are finer or may be many more:
+/// `EXTREME_COUNT` cases from `EXTREME_FIRST` on, or `EXTREME_CASE`. Fails for a second run that breaks a
+/// law.
+#[test]
+#[ignore = "a quarter of an hour on two cores; \
+            cargo test --release --test extremes -- --ignored again --nocapture"]
+fn cases_without_a_result_run_again() {
+    let [first, count] = match asked("EXTREME_CASE") {
+        Some(number) => [number, 1],
+        None => [asked("EXTREME_FIRST").unwrap_or(0), asked("EXTREME_COUNT").unwrap_or(1000)],
+    };
+    let firsts = findings(first, count);
+    let pairs: Vec<_> = spread(firsts.len() as u64, |i| {
+        let first = &firsts[i as usize];
+        finer::again(first).map(|second| (first.clone(), second))
+    });
+    let pairs: Vec<_> = pairs.into_iter().flatten().collect();
+    if let (Some(number), [(_, only)]) = (asked("EXTREME_CASE"), &pairs[..]) {
+        println!("{number}: {only:#?}");
+    }
+    println!("{}", finer::table(&pairs));
+    assert_lawful(&pairs.into_iter().map(|(_, second)| second).collect::<Vec<_>>());
 }
 
 /// A number from the environment.

@@ -5,10 +5,6 @@ use abrade::{Inertia, Ledger, PhysicsError, State, Surface};
 use crate::case::{Case, Precision};
 use crate::{double, single};
 
-/// Contact steps of one step of the embedder.
-pub const STEP_LIMIT: u64 = 4_000;
-/// Contact steps of a case after which it counts as long.
-const LONG: u64 = 8_000;
 /// Steps of the embedder by the case's own length, and then by [`REST`].
 const STEPS: [u32; 2] = [40, 40];
 /// Length of later steps [s].
@@ -160,7 +156,7 @@ fn carry(world: &mut dyn World, case: &Case) -> Record {
         if world.is_near() {
             last = world.state();
         }
-        end = ended(&step, world, touches > 0);
+        end = ended(&step, world, case.means.long, touches > 0);
         if end.is_some() {
             break;
         }
@@ -187,7 +183,7 @@ fn carry(world: &mut dyn World, case: &Case) -> Record {
     }
 }
 
-fn ended(step: &Step, world: &dyn World, touched: bool) -> Option<End> {
+fn ended(step: &Step, world: &dyn World, long: u64, touched: bool) -> Option<End> {
     if let Some(error) = &step.failed {
         return Some(End::Failed(error.clone()));
     }
@@ -200,5 +196,5 @@ fn ended(step: &Step, world: &dyn World, touched: bool) -> Option<End> {
     if touched && !world.is_near() {
         return Some(End::Rebounded);
     }
-    (world.steps() > LONG).then_some(End::Long)
+    (world.steps() > long).then_some(End::Long)
 }

@@ -6,8 +6,8 @@ use nalgebra::{Point3, Vector3};
 use super::plugin::rapier::math::{Real, Vector};
 use super::plugin::rapier::prelude::*;
 use super::plugin::{SurfaceId, WearEvent, WearSettings, WearWorld, scalar};
-use crate::case::{Case, Form, Target};
-use crate::run::{STEP_LIMIT, Step, World};
+use crate::case::{Case, Form, Means, Target};
+use crate::run::{Step, World};
 use crate::solid::{self, CLUMP};
 
 /// Roundings of a coordinate that Rapier needs between body and surface.
@@ -37,8 +37,9 @@ impl Trial {
         };
         let below = scalar::to_vector(&(case.origin() - Vector3::z() * half.z));
         let proxy = world.colliders.insert(proxy.translation(below));
+        let Means { accuracy, step_limit, .. } = case.means;
         let settings =
-            WearSettings { ledger: true, step_limit: STEP_LIMIT, ..WearSettings::default() };
+            WearSettings { ledger: true, accuracy, step_limit, ..WearSettings::default() };
         let mut wear = WearWorld::new(settings);
         let inserted = match case.target {
             Target::Strip => wear.insert_on_top(surface, proxy, &mut world.colliders),
