@@ -123,10 +123,15 @@ impl ColumnLaw {
         self.price.shear_hardness.is_some()
     }
 
-    /// One column in one step; None where nothing changes. `RUBS` and `HEADS`: whether faces rub, and
-    /// whether the heading counts.
+    /// True if what slides wears.
+    pub(crate) fn wears(&self) -> bool {
+        self.wear_rate > 0.0
+    }
+
+    /// One column in one step; None where nothing changes. `RUBS`, `HEADS` and `WEARS`: whether faces
+    /// rub, whether the heading counts, and whether what slides wears.
     #[inline]
-    pub(crate) fn sweep<const RUBS: bool, const HEADS: bool>(
+    pub(crate) fn sweep<const RUBS: bool, const HEADS: bool, const WEARS: bool>(
         &self,
         step: &Step<'_>,
         slot: &Slot,
@@ -151,7 +156,7 @@ impl ColumnLaw {
         if low < 0.0 {
             cut.pieces = column.solid(low.max(-step.own), high);
             for piece in cut.pieces.iter() {
-                self.charge::<RUBS, HEADS>(step, slot, &span, piece, &mut flow, toll);
+                self.charge::<RUBS, HEADS, WEARS>(step, slot, &span, piece, &mut flow, toll);
             }
         }
         let flows = flow.length > 0.0;
@@ -166,7 +171,7 @@ impl ColumnLaw {
             let squeezes = [column.squeeze, after];
             let force = self.squeeze::<RUBS>(step, slot, &span, squeezes, flows, toll);
             (cut.squeeze, cut.pressed) = (after, after);
-            if self.wear_rate > 0.0 {
+            if WEARS {
                 let arm = slot.x + slot.n * span.low - step.middle;
                 let rubbed = flow.rubbed + force * slide(step, &span.deep_normal, &arm);
                 let own = (level + step.own).max(0.0);
@@ -192,7 +197,7 @@ impl ColumnLaw {
 
     /// Charges the removal of the piece between `low` and `high` of a column.
     #[inline]
-    fn charge<const RUBS: bool, const HEADS: bool>(
+    fn charge<const RUBS: bool, const HEADS: bool, const WEARS: bool>(
         &self,
         step: &Step<'_>,
         slot: &Slot,
@@ -220,7 +225,7 @@ impl ColumnLaw {
             let force = energy / entry.displacement;
             self.press::<RUBS>(step, &entry.normal, &arm, force, &mut toll.flow);
             flow.length += length;
-            if self.wear_rate > 0.0 {
+            if WEARS {
                 flow.rubbed += force * slide(step, &entry.normal, &arm);
             }
             if HEADS {

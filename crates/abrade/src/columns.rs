@@ -205,17 +205,30 @@ impl Columns {
         poses: [&State; 2],
         motion: &Motion,
     ) -> &Toll {
-        let heads = self.law.heads() || surface.laws.removal.asks_attack();
-        match (self.law.rubs(), heads) {
-            (false, false) => self.sweep::<false, false>(surface, shape, poses, motion),
-            (false, true) => self.sweep::<false, true>(surface, shape, poses, motion),
-            (true, false) => self.sweep::<true, false>(surface, shape, poses, motion),
-            (true, true) => self.sweep::<true, true>(surface, shape, poses, motion),
+        match self.law.wears() {
+            false => self.by_faces::<false>(surface, shape, poses, motion),
+            true => self.by_faces::<true>(surface, shape, poses, motion),
         }
         &self.toll
     }
 
-    fn sweep<const RUBS: bool, const HEADS: bool>(
+    fn by_faces<const WEARS: bool>(
+        &mut self,
+        surface: &Surface,
+        shape: &Shape,
+        poses: [&State; 2],
+        motion: &Motion,
+    ) {
+        let heads = self.law.heads() || surface.laws.removal.asks_attack();
+        match (self.law.rubs(), heads) {
+            (false, false) => self.sweep::<false, false, WEARS>(surface, shape, poses, motion),
+            (false, true) => self.sweep::<false, true, WEARS>(surface, shape, poses, motion),
+            (true, false) => self.sweep::<true, false, WEARS>(surface, shape, poses, motion),
+            (true, true) => self.sweep::<true, true, WEARS>(surface, shape, poses, motion),
+        }
+    }
+
+    fn sweep<const RUBS: bool, const HEADS: bool, const WEARS: bool>(
         &mut self,
         surface: &Surface,
         shape: &Shape,
@@ -249,7 +262,8 @@ impl Columns {
                 }
                 step.own = own(surface, slot);
                 let column = &self.columns[index];
-                match self.law.sweep::<RUBS, HEADS>(&step, slot, column, &mut self.toll) {
+                let law = &self.law;
+                match law.sweep::<RUBS, HEADS, WEARS>(&step, slot, column, &mut self.toll) {
                     Some(cut) => self.cuts.push(Cut { index: index as u32, ..cut }),
                     None => {
                         let top = slot.x - slot.n * column.open_depth();

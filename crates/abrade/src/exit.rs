@@ -106,7 +106,12 @@ impl Integrator {
     /// it is: it has next to no motion left, and their forces give it none. No step would change that.
     pub(crate) fn is_held(&self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads) -> bool {
         let little = HELD * self.energy_before;
-        if !self.touching || self.relative_energy(body, surfaces) >= little {
+        let straight = 0.5 * body.state.velocity.norm_squared();
+        // What moves at all is seen at the lowest price.
+        if straight >= little * self.dynamics.inverse_mass || !self.touching {
+            return false;
+        }
+        if self.relative_energy(body, surfaces) >= little {
             return false;
         }
         let is_led = self.dynamics.is_guided() || self.dynamics.is_immovable();
