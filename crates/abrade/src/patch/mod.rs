@@ -299,7 +299,9 @@ impl Patch {
                 surface.sink(slot.id, part * whole);
                 surface.gain.normal += volume * normal;
                 surface.gain.lateral += volume * lateral;
-                surface.gain.rub_off(volume * archard);
+                if archard > 0.0 {
+                    surface.gain.rub_off(volume * archard);
+                }
                 surface.gain.take_off(volume * (normal + lateral), &debris);
             }
         }
