@@ -8,8 +8,8 @@ const PLACES: usize = 400;
 /// Widths of the curve that are tried, as shares of the range.
 const WIDTHS: [f64; 9] = [0.003, 0.006, 0.012, 0.025, 0.05, 0.1, 0.2, 0.4, 0.8];
 
-/// A boundary, in the units of what varies. An end at the range's own means that the runs do not bound it
-/// there.
+/// A boundary, in the units of what varies. An end of the interval at that of the values means that the runs do
+/// not bound it there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Boundary {
     /// Where the share is one half.
@@ -26,7 +26,7 @@ pub(crate) struct Share {
     pub(crate) hits: usize,
 }
 
-/// The boundary above which runs come out so; none where all or no runs do.
+/// The boundary above which runs come out so; none where it is not between the values.
 pub(crate) fn boundary(shares: &[Share]) -> Option<Boundary> {
     let values = shares.iter().map(|share| share.value);
     let [low, high] =
@@ -52,7 +52,10 @@ pub(crate) fn boundary(shares: &[Share]) -> Option<Boundary> {
         [place(first), place(last)]
     };
     let [from, to] = near(0.02);
-    Some(Boundary { at: 0.5 * (from + to), interval: near(DROP) })
+    let at = 0.5 * (from + to);
+    // A curve that is likeliest at an end has no half among the runs.
+    let inside = at > place(0) && at < place(PLACES);
+    inside.then(|| Boundary { at, interval: near(DROP) })
 }
 
 /// Log likelihood of the shares under a logistic curve.
@@ -99,9 +102,11 @@ mod tests {
         assert!(width(few) > 3.0 * width(many), "{few:?} {many:?}");
     }
 
-    /// Fails for a boundary where there is none.
+    /// Fails for a boundary where there is none: all or no runs came out so, or few at every value.
     #[test]
-    fn all_or_none_has_no_boundary() {
+    fn shares_on_one_side_of_a_half_have_no_boundary() {
+        assert_eq!(boundary(&shares(&[(0.0, 0), (0.5, 0), (1.0, 1)], 5)), None);
+        assert_eq!(boundary(&shares(&[(0.0, 4), (0.5, 5), (1.0, 5)], 5)), None);
         assert_eq!(boundary(&shares(&[(0.0, 0), (1.0, 0)], 5)), None);
         assert_eq!(boundary(&shares(&[(0.0, 5), (1.0, 5)], 5)), None);
     }

@@ -103,8 +103,8 @@ impl Map {
         self.file.cases().len() - self.cases.len()
     }
 
-    /// Where grinding begins along sigma_0 / sigma_j, for each a and sigma_j; none where all points grind
-    /// or none.
+    /// Where grinding begins along sigma_0 / sigma_j, for each a and sigma_j; none where that is not
+    /// between the points.
     pub fn boundaries(&self) -> Vec<(f64, f64, Option<Boundary>)> {
         let mut found = Vec::new();
         for &ratio in &self.file.strength_ratios {
