@@ -9,7 +9,7 @@ use crate::debt::unpaid;
 use crate::encounter::{Loads, Placed};
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
-use crate::projection::{Payment, balance, pay};
+use crate::projection::{Payment, balance_ahead, pay};
 #[cfg(feature = "state")]
 use crate::state::finite;
 use crate::toll::Toll;
@@ -67,8 +67,13 @@ impl Integrator {
 
     /// Takes what columns cost from a body in `state` and the carriers, closed by the energy
     /// projection. A guided body is paid for by what leads it: nothing is scaled.
-    /// A `gain` [J] of the energy is taken with the wear.
-    pub(crate) fn charge(&mut self, toll: &Toll, gain: f64, state: &mut State) -> Charge {
+    /// A `gain` [J] of the energy is taken with the wear, and what loads gave `ahead` [J] by the springs.
+    pub(crate) fn charge(
+        &mut self,
+        toll: &Toll,
+        [gain, ahead]: [f64; 2],
+        state: &mut State,
+    ) -> Charge {
         let has_columns = self.contacts.iter().any(|c| matches!(c, Contact::Columns(_)));
         if !has_columns && gain == 0.0 && self.short == 0.0 {
             return Charge { share: 1.0, ..Charge::default() };
@@ -80,7 +85,10 @@ impl Integrator {
         let cost = self.owed(toll, forgiven) + spring_gain;
         let (scale, short) = match guided {
             true => (1.0, 0.0),
-            false => balance(self.change(&toll.spring, state, |answer| &answer.sprung), cost),
+            false => {
+                let change = self.change(&toll.spring, state, |answer| &answer.sprung);
+                balance_ahead(change, cost, ahead)
+            }
         };
         let sprung = toll.spring.scaled(scale);
         self.apply(&sprung, state);
@@ -131,7 +139,7 @@ impl Integrator {
         if !self.glue.is_empty() {
             self.react(&state, |answer| answer.drawn);
         }
-        let gained = self.give_back() + self.ahead_of_loads(body, loads, dt);
+        let gained = [self.give_back(), self.ahead_of_loads(body, loads, dt)];
         let toll = &trial.toll;
         // The dashpots in halves around the springs: work at the mean velocity of the step.
         let half = self.is_damped.then(|| self.damping.half());

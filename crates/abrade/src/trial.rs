@@ -14,7 +14,7 @@ use crate::inner_loop::Reaction;
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
 use crate::node_law::Motion;
-use crate::projection::balance;
+use crate::projection::balance_ahead;
 use crate::rotation::Dynamics;
 use crate::toll::{Push, Toll};
 
@@ -292,9 +292,9 @@ impl Integrator {
         let (springs, toll) = (&trial.springs, &trial.toll);
         let mut state = trial.state;
         self.kick(body, loads, &springs.force, &springs.torque, 0.5 * trial.dt, &mut state);
-        let cost = self.owed(toll, unpaid(toll.lost, self.short))
-            + self.ahead_of_loads(body, loads, trial.dt);
-        balance(self.change(&toll.spring, &state, |answer| &answer.sprung), cost).1
+        let cost = self.owed(toll, unpaid(toll.lost, self.short));
+        let ahead = self.ahead_of_loads(body, loads, trial.dt);
+        balance_ahead(self.change(&toll.spring, &state, |answer| &answer.sprung), cost, ahead).1
     }
 
     pub(crate) fn has_sprung_columns(&self) -> bool {
