@@ -21,10 +21,17 @@ impl ParameterError {
         (!fine).then(|| Self { field, value, allowed: "finite and above zero".into() })
     }
 
-    /// An error unless `low <= value <= high`.
+    /// An error unless `low <= value <= high`; `f64::MAX` for what has no bound above, and
+    /// `f64::MIN_POSITIVE` for what is above zero.
     pub fn within(field: &'static str, value: f64, low: f64, high: f64) -> Option<Self> {
         let fine = value >= low && value <= high;
-        (!fine).then(|| Self { field, value, allowed: format!("between {low} and {high}") })
+        let allowed = || match (low == f64::MIN_POSITIVE, high == f64::MAX) {
+            (true, true) => "finite and above zero".into(),
+            (true, false) => format!("above zero and at most {high}"),
+            (false, true) => format!("finite and at least {low}"),
+            (false, false) => format!("between {low} and {high}"),
+        };
+        (!fine).then(|| Self { field, value, allowed: allowed() })
     }
 }
 

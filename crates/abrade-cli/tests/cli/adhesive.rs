@@ -46,12 +46,13 @@ fn faults_are_shown_where_they_stand() {
     for (arguments, told) in [
         (
             ["run", "bodies.ron", "--set", "solid.adhesion=\"-1 MPa\""],
-            "`solid.adhesion` is out of range",
+            "^^^^^^^ must be finite and at least 0\n",
         ),
         (["run", "bodies.ron", "--set", "solid.adhesion=\"1 mm\""], "a pressure"),
         (["run", "bodies.ron", "--set", "bodies.overlp=0.3"], "did you mean `overlap`?"),
         (["run", "bodies.ron", "--set", "outline=\"line.csv\""], "line 2 of `line.csv`"),
         (["run", "bodies.ron", "--set", "bodies.gap=-4.0"], "the bodies overlap"),
+        (["map", "map.ron", "--set", "shear_strengths=[0.0]"], "must be finite and above zero"),
         (["map", "map.ron", "--set", "gaps=[1.2,1.2]"], "`gaps.1` is there twice"),
         (["map", "map.ron", "--case", "17"], "there is no case 17"),
     ] {
