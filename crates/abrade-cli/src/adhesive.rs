@@ -4,9 +4,8 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use abrade_study::adhesive::{self, MapFile};
-use anyhow::Context;
 
-use crate::arguments::{AdhesiveMapArguments, AdhesiveRunArguments, PartArguments};
+use crate::arguments::{AdhesiveRunArguments, PartArguments, SweepArguments};
 use crate::failure::Failure;
 use crate::progress::Bar;
 use crate::study::failure;
@@ -46,15 +45,12 @@ struct Opened {
 }
 
 /// Makes a map, or the part of it that is asked for.
-pub(crate) fn map(arguments: &AdhesiveMapArguments) -> Result<(), Failure> {
+pub(crate) fn map(
+    SweepArguments { file: arguments, part }: &SweepArguments,
+) -> Result<(), Failure> {
     let file = adhesive::load_map(&arguments.study, &arguments.sets)?;
-    let out = output_folder::chosen(arguments.out.as_deref(), &file.name);
-    if let Some(jobs) = arguments.jobs {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(jobs)).build_global();
-        pool.context("no threads").map_err(Failure::Run)?;
-    }
+    let out = arguments.begin(&file.name)?;
     let opened = Opened { file, out };
-    let part = &arguments.part;
     if part.list {
         return opened.list();
     }

@@ -2,8 +2,11 @@
 
 use std::path::PathBuf;
 
-use crate::failure::Failure;
+use anyhow::Context;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::failure::Failure;
+use crate::output_folder;
 
 /// Plastic wear of surfaces struck by rigid bodies.
 #[derive(Parser)]
@@ -83,18 +86,18 @@ pub(crate) enum StudyCommand {
     Convergence(ConvergenceArguments),
     /// How much grains of several forms wear a plate, by angle and speed: means with intervals, and
     /// ratios to a sphere. Goes on where it was broken off.
-    Erosion(ErosionArguments),
+    Erosion(FileArguments),
 }
 
-/// A study of erosion and where it goes.
+/// The file of a study or a map, and where it goes.
 #[derive(Args)]
-pub(crate) struct ErosionArguments {
-    /// Study file (RON).
+pub(crate) struct FileArguments {
+    /// Study or map file (RON).
     pub(crate) study: PathBuf,
-    /// Change a value of the study, as in samples.most=256; may be repeated.
+    /// Change a value of the file, as in samples.most=256 or bodies.overlap=0.3; may be repeated.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub(crate) sets: Vec<String>,
-    /// Folder for the results [default: runs/<study name>].
+    /// Folder for the results [default: runs/<its name>].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Threads [default: one per core].
@@ -102,11 +105,23 @@ pub(crate) struct ErosionArguments {
     pub(crate) jobs: Option<u16>,
 }
 
-/// Arguments of `sweep`.
+impl FileArguments {
+    /// Sets the threads; returns the folder for the results of what the file calls `name`.
+    pub(crate) fn begin(&self, name: &str) -> Result<PathBuf, Failure> {
+        if let Some(jobs) = self.jobs {
+            let pool =
+                rayon::ThreadPoolBuilder::new().num_threads(usize::from(jobs)).build_global();
+            pool.context("no threads").map_err(Failure::Run)?;
+        }
+        Ok(output_folder::chosen(self.out.as_deref(), name))
+    }
+}
+
+/// Arguments of `sweep` and of `adhesive map`: a file, and which part of it is made.
 #[derive(Args)]
 pub(crate) struct SweepArguments {
     #[command(flatten)]
-    pub(crate) erosion: ErosionArguments,
+    pub(crate) file: FileArguments,
     #[command(flatten)]
     pub(crate) part: PartArguments,
 }
@@ -167,7 +182,7 @@ pub(crate) enum AdhesiveCommand {
     Run(AdhesiveRunArguments),
     /// Make a map: many collisions over ratios of strength and adhesion, and where grinding begins. Goes on
     /// where it was broken off.
-    Map(AdhesiveMapArguments),
+    Map(SweepArguments),
 }
 
 /// Arguments of `adhesive run`.
@@ -181,24 +196,6 @@ pub(crate) struct AdhesiveRunArguments {
     /// Print the summary file's content, and nothing else.
     #[arg(long)]
     pub(crate) json: bool,
-}
-
-/// Arguments of `adhesive map`.
-#[derive(Args)]
-pub(crate) struct AdhesiveMapArguments {
-    /// Map file (RON).
-    pub(crate) study: PathBuf,
-    /// Change a value of the map, as in bodies.overlap=0.3; may be repeated.
-    #[arg(long = "set", value_name = "PATH=VALUE")]
-    pub(crate) sets: Vec<String>,
-    /// Folder for the results [default: runs/<map name>].
-    #[arg(long, value_name = "DIR")]
-    pub(crate) out: Option<PathBuf>,
-    /// Threads [default: one per core].
-    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..))]
-    pub(crate) jobs: Option<u16>,
-    #[command(flatten)]
-    pub(crate) part: PartArguments,
 }
 
 /// Arguments of `study convergence`.

@@ -3,9 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use abrade_study::erosion::{self, Case, StudyFile, Unmade};
-use anyhow::Context;
 
-use crate::arguments::ErosionArguments;
+use crate::arguments::FileArguments;
 use crate::failure::Failure;
 use crate::progress::Bar;
 use crate::study::failure;
@@ -21,21 +20,17 @@ pub(crate) struct Opened {
 }
 
 /// Makes all cases that are not there, writes the tables, says what came of it.
-pub(crate) fn erosion(arguments: &ErosionArguments) -> Result<(), Failure> {
+pub(crate) fn erosion(arguments: &FileArguments) -> Result<(), Failure> {
     let opened = open(arguments)?;
     let unmade = opened.make(&opened.file.cases())?;
     opened.tell(&unmade)
 }
 
 /// Reads and checks the study.
-pub(crate) fn open(arguments: &ErosionArguments) -> Result<Opened, Failure> {
+pub(crate) fn open(arguments: &FileArguments) -> Result<Opened, Failure> {
     let file = erosion::load(&arguments.study, &arguments.sets)?;
     let beside = arguments.study.parent().unwrap_or(Path::new("")).to_owned();
-    let out = output_folder::chosen(arguments.out.as_deref(), &file.name);
-    if let Some(jobs) = arguments.jobs {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(jobs)).build_global();
-        pool.context("no threads").map_err(Failure::Run)?;
-    }
+    let out = arguments.begin(&file.name)?;
     Ok(Opened { file, beside, out })
 }
 

@@ -13,7 +13,7 @@ use crate::study::failure;
 
 /// Makes the part of the study that is asked for, or merges the parts.
 pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
-    let opened = open(&arguments.erosion)?;
+    let opened = open(&arguments.file)?;
     if arguments.part.list {
         return list(&opened);
     }

@@ -50,9 +50,9 @@ pub(crate) struct Outcome {
     pub friction: f64,
 }
 
-/// True when nothing is worn under `load` [N]: no node can flow, and nothing wears below that. None bears more than all of it, and the least
-/// that moves a node is its rest area times the smaller hardness. On a closed surface a few nodes at
-/// its edges stand for less than the area taken.
+/// True when nothing is worn under `load` [N]: no node can flow, and nothing wears below that. None
+/// bears more than all of it, and the least that moves a node is its rest area times the smaller
+/// hardness. On a closed surface a few nodes at its edges stand for less than the area taken.
 pub(crate) fn holds(surface: &Surface, load: f64) -> bool {
     if surface.laws().archard.is_some() {
         return false;

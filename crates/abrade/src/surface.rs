@@ -42,7 +42,7 @@ pub struct SurfaceLaws {
     pub restitution: f64,
     /// Adhesion to bodies; None for a surface that nothing sticks to.
     pub adhesion: Option<Adhesion>,
-    /// Wear under what slides below the hardness; None for a surface that flow alone wears.
+    /// Wear under what slides, below the hardness too; None for a surface that flow alone wears.
     pub archard: Option<Archard>,
 }
 

@@ -108,7 +108,7 @@ impl Integrator {
 
     /// False for a last `trial` in which something is not a number.
     pub(crate) fn is_finite(&self, trial: &Trial) -> bool {
-        trial.is_finite() && self.attraction.is_finite()
+        trial.is_finite() && (self.glue.is_empty() || self.attraction.is_finite())
     }
 
     pub(crate) fn trial(

@@ -18,8 +18,8 @@ pub struct Worn {
     pub chip: f64,
     /// Debris: of what flows by the surface's removal rule, and all of what is rubbed or breaks off.
     pub removed: f64,
-    /// Displaced by faces of each angle of attack, from 0 on in steps of 5 degrees; chips and what is rubbed off left out. Only
-    /// where the removal rule asks for that angle, else zeros.
+    /// Displaced by faces of each angle of attack, from 0 on in steps of 5 degrees; chips and what is
+    /// rubbed off left out. Only where the removal rule asks for that angle, else zeros.
     pub by_attack: [f64; ATTACK_BINS],
     /// Largest depth of a node [m], renewals included.
     pub max_depth: f64,
