@@ -9,7 +9,7 @@ use crate::integrate::Integrator;
 use crate::trial::Trial;
 
 /// Share of a contact's energy, times the accuracy, by which a step may bring the springs out of
-/// balance while a shorter one is to be had.
+/// balance while a shorter one is to be had; it falls as the square of what is left to the end.
 const SHORT_STEP: f64 = 0.1;
 /// Share of a contact's energy by which they may be out of balance at all.
 const UNBALANCED: f64 = 0.05;
@@ -34,7 +34,9 @@ impl Integrator {
             return false;
         }
         let short = self.foreseen_short(body, loads, trial);
-        let allowed = SHORT_STEP * self.settings.accuracy * self.contact_energy(body, surfaces);
+        let energy = self.contact_energy(body, surfaces);
+        let room = (1.0 - self.short.abs() / (UNBALANCED * energy)).max(0.0);
+        let allowed = SHORT_STEP * self.settings.accuracy * room * room * energy;
         short.abs() - self.short.abs() > allowed
     }
 
