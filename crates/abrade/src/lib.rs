@@ -48,6 +48,7 @@ mod mutual;
 mod node_law;
 mod nodes;
 mod patch;
+mod planes;
 mod press;
 mod price;
 #[cfg(feature = "bench")]

@@ -4,6 +4,7 @@
 use nalgebra::{Point3, Vector3};
 
 use crate::body::State;
+use crate::planes::{self, Block, Line};
 use crate::shape::{Piece, Shape};
 
 /// Displacement of a face, in displacements of the step, below which it did not move.
@@ -16,8 +17,9 @@ pub(crate) struct Swept {
     level: Option<Vector3<f64>>,
     planes: Vec<MovedPlane>,
     balls: Vec<MovedBall>,
-    /// Per hull: the end of its planes in `planes`.
-    hulls: Vec<usize>,
+    /// The planes at the end of the step, hull by hull in whole blocks.
+    blocks: Vec<Block>,
+    hulls: Vec<HullEnd>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -27,8 +29,13 @@ struct MovedPlane {
     to: (Vector3<f64>, f64),
     /// Mean normal of both poses.
     mean: Vector3<f64>,
-    /// The end normal's part along the level.
-    slope: f64,
+}
+
+/// Where the planes and the blocks of a hull end.
+#[derive(Clone, Copy, Debug)]
+struct HullEnd {
+    planes: usize,
+    blocks: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -69,6 +76,7 @@ impl Swept {
     ) {
         self.level = level;
         self.planes.clear();
+        self.blocks.clear();
         self.balls.clear();
         self.hulls.clear();
         for piece in shape.pieces() {
@@ -86,11 +94,13 @@ impl Swept {
                     self.planes.extend(hull.planes().iter().map(|p| {
                         let from = at(from, &p.normal, p.offset);
                         let to = at(to, &p.normal, p.offset);
-                        let slope = level.map_or(0.0, |n| to.0.dot(&n));
-                        let mean = (from.0 + to.0).normalize();
-                        MovedPlane { from, to, mean, slope }
+                        MovedPlane { from, to, mean: (from.0 + to.0).normalize() }
                     }));
-                    self.hulls.push(self.planes.len());
+                    let start = self.hulls.last().map_or(0, |hull| hull.planes);
+                    let ends = self.planes[start..].iter().map(|plane| plane.to);
+                    planes::add(&mut self.blocks, ends, level);
+                    let (planes, blocks) = (self.planes.len(), self.blocks.len());
+                    self.hulls.push(HullEnd { planes, blocks });
                 }
             }
         }
@@ -106,7 +116,7 @@ impl Swept {
     #[inline]
     fn whole_span(&self, x: &Point3<f64>, n: &Vector3<f64>) -> Option<Span> {
         match (&*self.hulls, &*self.balls) {
-            ([_], []) => return self.clip(&self.planes, x, n),
+            ([_], []) => return self.clip(&self.blocks, x, n),
             ([], [ball]) => return ball.chord(x, n),
             _ => {}
         }
@@ -119,51 +129,44 @@ impl Swept {
             }
             joined.high = joined.high.max(span.high);
         };
-        let mut start = 0;
-        for &end in &self.hulls {
-            add(self.clip(&self.planes[start..end], x, n));
-            start = end;
-        }
+        self.blocks().for_each(|blocks| add(self.clip(blocks, x, n)));
         self.balls.iter().for_each(|ball| add(ball.chord(x, n)));
         whole
     }
 
     #[inline]
-    fn clip(&self, planes: &[MovedPlane], x: &Point3<f64>, n: &Vector3<f64>) -> Option<Span> {
-        match self.level {
-            Some(_) => clip(planes, x, |plane| plane.slope),
-            None => clip(planes, x, |plane| plane.to.0.dot(n)),
-        }
+    fn clip(&self, blocks: &[Block], x: &Point3<f64>, n: &Vector3<f64>) -> Option<Span> {
+        let line = Line::new(self.level, n);
+        let ends = [f64::NEG_INFINITY, f64::INFINITY];
+        let [low, high] = planes::inside(blocks, x, line, ends, 0.0)?;
+        let deep_normal = planes::crossed_at(blocks, x, line, low)?;
+        Some(Span { low, high, deep_normal })
+    }
+
+    /// The blocks of each hull.
+    #[inline]
+    fn blocks(&self) -> impl Iterator<Item = &[Block]> {
+        let mut start = 0;
+        self.hulls.iter().map(move |hull| {
+            let blocks = &self.blocks[start..hull.blocks];
+            start = hull.blocks;
+            blocks
+        })
     }
 
     /// True when the line from `x` down along -n, `reach` [m] long, meets the body, grown by
     /// `margin` [m], at the end of the step.
     pub(crate) fn meets(&self, x: &Point3<f64>, n: &Vector3<f64>, margin: f64, reach: f64) -> bool {
-        let mut start = 0;
-        let hulls = self.hulls.iter().any(|&end| {
-            let planes = &self.planes[start..end];
-            start = end;
-            let line = [-(reach + margin), margin];
-            match self.level {
-                Some(_) => hull_meets(planes, x, |plane| plane.slope, line, margin),
-                None => hull_meets(planes, x, |plane| plane.to.0.dot(n), line, margin),
-            }
-        });
-        hulls || self.balls.iter().any(|ball| ball.meets(x, n, margin, reach))
+        let (line, ends) = (Line::new(self.level, n), [-(reach + margin), margin]);
+        self.blocks().any(|blocks| planes::inside(blocks, x, line, ends, margin).is_some())
+            || self.balls.iter().any(|ball| ball.meets(x, n, margin, reach))
     }
 
     /// A distance [m] that every point of the body may move, at least, before it meets the line from `x`
     /// down along -n; below zero where it may have met it.
     pub(crate) fn clearance(&self, x: &Point3<f64>, n: &Vector3<f64>) -> f64 {
-        let mut start = 0;
-        let hulls = self.hulls.iter().map(|&end| {
-            let planes = &self.planes[start..end];
-            start = end;
-            match self.level {
-                Some(_) => hull_clearance(planes, x, |plane| plane.slope),
-                None => hull_clearance(planes, x, |plane| plane.to.0.dot(n)),
-            }
-        });
+        let line = Line::new(self.level, n);
+        let hulls = self.blocks().map(|blocks| planes::clearance(blocks, x, line));
         let balls = self.balls.iter().map(|ball| ball.clearance(x, n));
         hulls.chain(balls).fold(f64::INFINITY, f64::min)
     }
@@ -180,95 +183,13 @@ impl Swept {
             }
         };
         let mut start = 0;
-        for &end in &self.hulls {
-            add(hull_entry(&self.planes[start..end], p, step));
-            start = end;
+        for hull in &self.hulls {
+            add(hull_entry(&self.planes[start..hull.planes], p, step));
+            start = hull.planes;
         }
         self.balls.iter().for_each(|ball| add(ball.entry(p, step)));
         first.map(|(_, entry)| entry)
     }
-}
-
-/// Clips the line against the planes at the end of the step; `slope` is that of a plane's normal
-/// along the line.
-#[inline(always)]
-fn clip(
-    planes: &[MovedPlane],
-    x: &Point3<f64>,
-    slope: impl Fn(&MovedPlane) -> f64,
-) -> Option<Span> {
-    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-    let mut deep = None;
-    for plane in planes {
-        let slope = slope(plane);
-        let room = plane.to.1 - plane.to.0.dot(&x.coords);
-        if slope < 0.0 {
-            let bound = room / slope;
-            if bound > low {
-                low = bound;
-                deep = Some(plane);
-            }
-        } else if slope > 0.0 {
-            let bound = room / slope;
-            if bound < high {
-                high = bound;
-            }
-        } else if room < 0.0 {
-            return None;
-        }
-        if low >= high {
-            return None;
-        }
-    }
-    deep.map(|plane| Span { low, high, deep_normal: plane.to.0 })
-}
-
-#[inline(always)]
-fn hull_meets(
-    planes: &[MovedPlane],
-    x: &Point3<f64>,
-    slope: impl Fn(&MovedPlane) -> f64,
-    [mut low, mut high]: [f64; 2],
-    margin: f64,
-) -> bool {
-    for plane in planes {
-        let (slope, (normal, offset)) = (slope(plane), &plane.to);
-        let room = offset + margin - normal.dot(&x.coords);
-        if slope < 0.0 {
-            let bound = room / slope;
-            if bound > low {
-                low = bound;
-            }
-        } else if slope > 0.0 {
-            let bound = room / slope;
-            if bound < high {
-                high = bound;
-            }
-        } else if room < 0.0 {
-            return false;
-        }
-        if low >= high {
-            return false;
-        }
-    }
-    true
-}
-
-/// Distance of the line from the farthest of the planes from which it leads away.
-#[inline(always)]
-fn hull_clearance(
-    planes: &[MovedPlane],
-    x: &Point3<f64>,
-    slope: impl Fn(&MovedPlane) -> f64,
-) -> f64 {
-    let mut farthest = f64::NEG_INFINITY;
-    for plane in planes {
-        let distance = plane.to.0.dot(&x.coords) - plane.to.1;
-        if slope(plane) <= 0.0 && distance > farthest {
-            farthest = distance;
-        }
-    }
-    farthest
 }
 
 /// The plane that was crossed last on the way in, and when, as a share of the step.
