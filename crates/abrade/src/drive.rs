@@ -18,6 +18,8 @@ use crate::trial::{Course, Trial};
 /// Increments of the indentation in yield overlaps, and in pitches without springs.
 const INDENT_YIELD: f64 = 0.1;
 const INDENT_PITCH: f64 = 0.01;
+/// Share of the distance that the sum of the steps may have lost by rounding: such a rest is no step.
+const ROUNDING: f64 = 1e-9;
 
 /// What a driven body does.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -197,8 +199,8 @@ impl Driven {
             return Ok(Advance::default());
         }
         let left = (self.drive.distance - self.travelled) / self.drive.speed;
-        let last = duration >= left;
-        let duration = duration.min(left);
+        let last = left - duration <= ROUNDING * (self.drive.distance / self.drive.speed);
+        let duration = if last { left } else { duration };
         let advance = match self.drive.solution {
             DriveSolution::Dynamic => {
                 let rotation = placed[0].pose.rotation;
