@@ -9,11 +9,11 @@ use crate::arguments::{AdhesiveRunArguments, PartArguments, SweepArguments};
 use crate::failure::Failure;
 use crate::progress::Bar;
 use crate::study::failure;
-use crate::{interrupt, output_folder, say};
+use crate::{interrupt, kind, output_folder, say};
 
 /// Runs a scene of two asperities and says what became of them.
 pub(crate) fn run(arguments: &AdhesiveRunArguments) -> Result<(), Failure> {
-    let file = adhesive::load_scene(&arguments.scene.scene, &arguments.scene.sets)?;
+    let file = kind::asperities(&arguments.scene.scene, &arguments.scene.sets)?;
     let folder = output_folder::chosen(arguments.out.as_deref(), &file.name);
     output_folder::make(&folder)?;
     let stop = interrupt::flag();
@@ -48,7 +48,7 @@ struct Opened {
 pub(crate) fn map(
     SweepArguments { file: arguments, part }: &SweepArguments,
 ) -> Result<(), Failure> {
-    let file = adhesive::load_map(&arguments.study, &arguments.sets)?;
+    let file = kind::map(&arguments.study, &arguments.sets)?;
     let out = arguments.begin(&file.name)?;
     let opened = Opened { file, out };
     if part.list {
@@ -72,7 +72,7 @@ impl Opened {
         let cases = part.choose(self.file.cases(), |case| case.number)?;
         output_folder::make(&self.out)?;
         let stop = interrupt::flag();
-        let mut bar = Bar::new(&stop);
+        let mut bar = Bar::of_cases(&stop);
         let made = adhesive::make(&self.file, &cases, &self.out, &mut bar);
         bar.clear();
         made.map_err(failure)

@@ -9,11 +9,12 @@ use abrade_scene::{Checked, Solid, SurfaceSize};
 
 use crate::arguments::SceneArguments;
 use crate::failure::Failure;
+use crate::kind;
 use crate::say::say;
 
 /// Checks the scene and prints its size.
 pub(crate) fn check(arguments: &SceneArguments) -> Result<(), Failure> {
-    let checked = abrade_scene::load(&arguments.scene, &arguments.sets)?;
+    let checked = kind::scene(&arguments.scene, &arguments.sets)?;
     say(&text(&checked))
 }
 
@@ -59,7 +60,7 @@ fn text(checked: &Checked) -> String {
     let accuracy = digits(run.accuracy);
     rows.push(row("run", format!("until {stop}, {:?}, accuracy {accuracy}", run.resolve)));
     rows.push(row("memory", format!("{} for the nodes", memory(size.memory))));
-    rows.push(row("time", format!("about {}, within a factor of ten", time(size.seconds))));
+    rows.push(row("time", format!("roughly {}", time(size.seconds))));
     rows.extend(checked.notes.iter().map(|note| row("note", note.clone())));
     rows.concat()
 }
@@ -153,7 +154,7 @@ fn body_text(body: &SceneBody, solid: &Solid) -> String {
 
 fn stop_text(stop: &Stop) -> String {
     match stop {
-        Stop::AllRebounded => "all rebounded".into(),
+        Stop::AllRebounded => "every body has left or rests, or has slid its distance".into(),
         Stop::FirstExit => "the first exit".into(),
         Stop::Time { limit } => time(*limit),
         Stop::Distance => "the distance is slid".into(),

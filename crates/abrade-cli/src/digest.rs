@@ -19,6 +19,15 @@ pub(crate) fn digest(checked: &Checked, summary: &Summary, folder: &Path) -> Str
     text
 }
 
+/// What is left of a run that failed: its figures end in the middle of a contact, and tell nothing.
+pub(crate) fn of_failed(summary: &Summary, folder: &Path) -> String {
+    let Summary { scene, simulated, .. } = summary;
+    let place = folder.display();
+    format!(
+        "{scene}\n  failed after {simulated:.3e} s simulated; what was done until then is in {place}\n"
+    )
+}
+
 fn write_digest(
     out: &mut String,
     checked: &Checked,
@@ -35,8 +44,9 @@ fn write_digest(
             surface.worn_nodes,
             surface.nodes
         );
-        if surface.removed_volume != surface.wear_volume {
-            write!(parts, ", removed {}", volume(surface.removed_volume))?;
+        let removed = volume(surface.removed_volume);
+        if removed != volume(surface.wear_volume) {
+            write!(parts, ", removed {removed}")?;
         }
         if surface.chip_volume > 0.0 {
             write!(parts, ", chips {}", volume(surface.chip_volume))?;
@@ -62,10 +72,7 @@ fn write_digest(
                 format!("restitution {restitution:.4}, leaves at {angle:.1} deg")
             }
             (Some(restitution), None) => format!("restitution {restitution:.4}"),
-            _ => {
-                let [x, y, z] = body.mean_force;
-                format!("mean force ({x:.4e}, {y:.4e}, {z:.4e}) N")
-            }
+            _ => force_text(body.mean_force),
         };
         writeln!(out, "  body    {name:12} {line}")?;
     }
@@ -132,6 +139,16 @@ fn write_digest(
         (false, ..) => "summary.json".to_owned(),
     };
     writeln!(out, "  {file} in {}", folder.display())
+}
+
+/// The mean force on a body [N], without what is rounding beside the rest.
+fn force_text(force: [f64; 3]) -> String {
+    let largest = force.iter().fold(0.0f64, |largest, part| largest.max(part.abs()));
+    if largest == 0.0 {
+        return "no force measured".into();
+    }
+    let [x, y, z] = force.map(|part| if part.abs() > NOTHING * largest { part } else { 0.0 });
+    format!("mean force ({x:.4e}, {y:.4e}, {z:.4e}) N")
 }
 
 /// Debris per mass of what has struck.

@@ -8,7 +8,7 @@ use crate::arguments::FileArguments;
 use crate::failure::Failure;
 use crate::progress::Bar;
 use crate::study::failure;
-use crate::{interrupt, output_folder, say};
+use crate::{interrupt, kind, output_folder, say};
 
 /// A study, and where its files and its results lie.
 pub(crate) struct Opened {
@@ -28,7 +28,7 @@ pub(crate) fn erosion(arguments: &FileArguments) -> Result<(), Failure> {
 
 /// Reads and checks the study.
 pub(crate) fn open(arguments: &FileArguments) -> Result<Opened, Failure> {
-    let file = erosion::load(&arguments.study, &arguments.sets)?;
+    let file = kind::erosion(&arguments.study, &arguments.sets)?;
     let beside = arguments.study.parent().unwrap_or(Path::new("")).to_owned();
     let out = arguments.begin(&file.name)?;
     Ok(Opened { file, beside, out })
@@ -39,7 +39,7 @@ impl Opened {
     pub(crate) fn make(&self, cases: &[Case]) -> Result<Vec<Unmade>, Failure> {
         output_folder::make(&self.out)?;
         let stop = interrupt::flag();
-        let mut bar = Bar::new(&stop);
+        let mut bar = Bar::of_cases(&stop);
         let made = erosion::make(&self.file, &self.beside, cases, &self.out, &mut bar);
         bar.clear();
         made.map_err(failure)

@@ -6,6 +6,9 @@ use abrade_scene::SceneError;
 
 use crate::render;
 
+/// Exit code of work that the user broke off.
+pub(crate) const INTERRUPTED: u8 = 130;
+
 /// Why a command ended early.
 pub(crate) enum Failure {
     /// The scene is wrong.
@@ -24,7 +27,7 @@ impl Failure {
         match self {
             Self::Run(_) => 1,
             Self::Scene(_) | Self::Input(_) => 2,
-            Self::Interrupted => 130,
+            Self::Interrupted => INTERRUPTED,
         }
     }
 
@@ -37,11 +40,5 @@ impl Failure {
             Self::Input(error) | Self::Run(error) => eprintln!("error: {error:#}"),
             Self::Interrupted => eprintln!("interrupted; the results so far are kept"),
         }
-    }
-}
-
-impl From<SceneError> for Failure {
-    fn from(error: SceneError) -> Self {
-        Self::Scene(error)
     }
 }

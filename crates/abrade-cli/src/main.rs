@@ -13,6 +13,7 @@ mod digest;
 mod erosion;
 mod failure;
 mod interrupt;
+mod kind;
 mod laws;
 mod output_folder;
 mod progress;

@@ -13,11 +13,18 @@ const PARTS: u64 = 1000;
 /// The bar, and whether an interrupt was asked for.
 pub(crate) struct Bar<'a> {
     bar: ProgressBar,
+    shows_time: bool,
     stop: &'a AtomicBool,
 }
 
 impl<'a> Bar<'a> {
+    /// Of one run.
     pub(crate) fn new(stop: &'a AtomicBool) -> Self {
+        Self { shows_time: true, ..Self::of_cases(stop) }
+    }
+
+    /// Of many cases, whose simulated time tells nobody anything.
+    pub(crate) fn of_cases(stop: &'a AtomicBool) -> Self {
         let target = match std::io::stderr().is_terminal() {
             true => ProgressDrawTarget::stderr(),
             false => ProgressDrawTarget::hidden(),
@@ -25,7 +32,7 @@ impl<'a> Bar<'a> {
         let bar = ProgressBar::with_draw_target(None, target);
         bar.set_style(ProgressStyle::default_spinner());
         bar.enable_steady_tick(Duration::from_millis(200));
-        Self { bar, stop }
+        Self { bar, shows_time: false, stop }
     }
 
     /// Takes the bar off the terminal.
@@ -39,14 +46,15 @@ impl Progress for Bar<'_> {
         if let Some(share) = share {
             if self.bar.length().is_none() {
                 self.bar.set_length(PARTS);
-                let style = ProgressStyle::with_template(
-                    "{bar:40} {percent:>3} %  {msg}, {per_sec:.0} of a thousand, {eta} left",
-                );
+                let style =
+                    ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}{eta} left");
                 self.bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
             }
             self.bar.set_position((share.clamp(0.0, 1.0) * PARTS as f64) as u64);
         }
-        self.bar.set_message(format!("{simulated:.3e} s simulated"));
+        if self.shows_time {
+            self.bar.set_message(format!("{simulated:.3e} s simulated, "));
+        }
         !self.stop.load(Ordering::Relaxed)
     }
 }

@@ -5,11 +5,11 @@ use abrade_scene::{Outcome, RunOptions};
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
 use crate::progress::Bar;
-use crate::{digest, interrupt, output_folder, say};
+use crate::{digest, interrupt, kind, output_folder, say};
 
 /// Loads and checks the scene, makes sure of its folder, runs it and says what came of it.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
-    let checked = abrade_scene::load(&arguments.scene.scene, &arguments.scene.sets)?;
+    let checked = kind::scene(&arguments.scene.scene, &arguments.scene.sets)?;
     let folder = output_folder::chosen(arguments.out.as_deref(), &checked.scene.name);
     output_folder::probe(&folder)?;
     let stop = interrupt::flag();
@@ -19,12 +19,13 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     bar.clear();
     let Outcome { summary, failure, interrupted } =
         outcome.map_err(|error| Failure::Run(error.into()))?;
-    match arguments.json {
-        true => {
+    match (arguments.json, &failure) {
+        (true, _) => {
             let json = summary.to_json().map_err(|error| Failure::Run(error.into()))?;
             say::say(&format!("{json}\n"))?;
         }
-        false => say::say(&digest::digest(&checked, &summary, &options.folder))?,
+        (false, None) => say::say(&digest::digest(&checked, &summary, &options.folder))?,
+        (false, Some(_)) => say::say(&digest::of_failed(&summary, &options.folder))?,
     }
     match (failure, interrupted) {
         (Some(error), _) => Err(Failure::Run(error.into())),

@@ -6,12 +6,12 @@ use abrade_study::convergence::{Plan, Variant, convergence as study};
 use crate::arguments::{ConvergenceArguments, Vary};
 use crate::failure::Failure;
 use crate::progress::Bar;
-use crate::{interrupt, output_folder, say};
+use crate::{interrupt, kind, output_folder, say};
 
 /// Runs the scene at ladders of settings and says what came of it.
 pub(crate) fn convergence(arguments: &ConvergenceArguments) -> Result<(), Failure> {
     let scene = &arguments.scene;
-    let checked = abrade_scene::load(&scene.scene, &scene.sets)?;
+    let checked = kind::scene(&scene.scene, &scene.sets)?;
     let name = format!("{}, convergence", checked.scene.name);
     let folder = output_folder::chosen(arguments.out.as_deref(), &name);
     output_folder::probe(&folder)?;
@@ -23,7 +23,7 @@ pub(crate) fn convergence(arguments: &ConvergenceArguments) -> Result<(), Failur
         folder,
     };
     let stop = interrupt::flag();
-    let mut bar = Bar::new(&stop);
+    let mut bar = Bar::of_cases(&stop);
     let study = study(&scene.scene, &scene.sets, &plan, &mut bar);
     bar.clear();
     let study = study.map_err(failure)?;
@@ -52,7 +52,7 @@ fn variants(vary: &[Vary]) -> Vec<Variant> {
 
 pub(crate) fn failure(error: StudyError) -> Failure {
     match error {
-        StudyError::Scene(error) => error.into(),
+        StudyError::Scene(error) => Failure::Scene(error),
         StudyError::Interrupted => Failure::Interrupted,
         StudyError::Reference { .. } | StudyError::Grain { .. } | StudyError::NoCases { .. } => {
             Failure::Input(error.into())

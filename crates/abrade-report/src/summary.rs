@@ -168,13 +168,14 @@ pub struct BodySummary {
     /// Angular velocity [rad/s].
     #[serde(rename = "spin_rad_s")]
     pub spin: [f64; 3],
-    /// Speed after over speed before [-]; `None` where there was no impact, while the body is in
-    /// contact, and where something leads a surface that it met.
+    /// Speed after over speed before [-]; `None` where there was no impact, for a body that stays or has
+    /// fallen past its surface, after a failure, and where something leads a surface that it met.
     pub restitution: Option<f64>,
     /// Angle of the velocity from the surface [deg]; `None` where the restitution is.
     #[serde(rename = "rebound_angle_deg")]
     pub rebound_angle: Option<f64>,
-    /// Impulse of the surfaces over the time in contact [N].
+    /// Impulse of the surfaces over the time in contact, force over the way of a driven body, and its last
+    /// force where it only indents [N]; zero without a contact.
     #[serde(rename = "mean_force_N")]
     pub mean_force: [f64; 3],
 }

@@ -28,6 +28,9 @@ use crate::scene::Scene;
 use crate::solid::Solid;
 use crate::spans::{Node, ScenePath};
 
+/// Hardness below which a unit was probably forgotten [Pa].
+const SOFT: f64 = 1e4;
+
 /// A scene without a known fault, and the solids of its bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checked {
@@ -71,8 +74,8 @@ pub(crate) fn check(
     let mut checker = Checker::new(&scene, patched, tree);
     checker.check_name();
     checker.check_finite("gravity", &scene.gravity);
-    checker.check_materials();
     let mut notes = Vec::new();
+    checker.check_materials(&mut notes);
     let meshes = checker.check_surfaces(&folder, &mut notes);
     checker.check_copies(&meshes);
     let hardness = checker.check_hardnesses(&folder, &meshes);
@@ -174,10 +177,17 @@ impl Checker<'_> {
         }
     }
 
-    fn check_materials(&mut self) {
+    fn check_materials(&mut self, notes: &mut Vec<String>) {
         for (name, material) in &self.scene.materials {
             let path = ScenePath::of(["materials", name]);
             self.ranges(&path, material.check().into_iter().map(Some));
+            if material.hardness < SOFT {
+                let hardness = material.hardness;
+                notes.push(format!(
+                    "material `{name}` has a hardness of {hardness} Pa, softer than any solid: a number \
+                     without a unit is in Pa"
+                ));
+            }
         }
     }
 }

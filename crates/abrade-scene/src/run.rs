@@ -24,6 +24,7 @@ mod entries;
 mod erosion;
 mod estimate;
 mod extent;
+mod fate;
 mod frames;
 mod impacts;
 mod record;

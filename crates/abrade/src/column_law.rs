@@ -86,7 +86,9 @@ impl ColumnLaw {
         let material = &laws.material;
         let stiffness = match laws.elastic {
             ElasticLaw::Rigid => f64::INFINITY,
-            _ => shape.pieces().iter().map(|p| coefficient(surface, p)).fold(0.0, f64::max),
+            ElasticLaw::Foundation { .. } | ElasticLaw::HertzNodes { .. } => {
+                shape.pieces().iter().map(|p| coefficient(surface, p)).fold(0.0, f64::max)
+            }
         };
         let shear_hardness = match laws.flow {
             FlowLaw::CapozzaHanley { .. } => Some(material.shear_ratio * material.hardness),

@@ -80,7 +80,9 @@ impl Columns {
             law: ColumnLaw::new(shape, surface),
             damping_ratio: match laws.elastic {
                 ElasticLaw::Rigid => 0.0,
-                _ => damping_ratio(laws.restitution),
+                ElasticLaw::Foundation { .. } | ElasticLaw::HertzNodes { .. } => {
+                    damping_ratio(laws.restitution)
+                }
             },
             swept: Swept::default(),
             candidates: Candidates::default(),

@@ -8,8 +8,8 @@ use crate::error::ParameterError;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[cfg_attr(feature = "state", derive(serde::Serialize))]
 pub struct Material {
-    /// Hardness H [Pa]: the pressure at which a node flows down its normal (Eq. 7).
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::quantity::pressure"))]
+    /// Hardness H [Pa]: the pressure at which a node flows down its normal (Eq. 7). `HV` is kgf/mm2.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::quantity::hardness"))]
     #[cfg_attr(feature = "serde", schemars(with = "crate::quantity::Quantity"))]
     pub hardness: f64,
     /// mu_a [-]: shear hardness H_l = mu_a H opens the lateral flow (Eq. 8).

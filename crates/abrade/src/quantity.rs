@@ -73,13 +73,13 @@ dimensions! {
     LENGTH length optional_length "a length" [("m", 1.0), ("cm", 1e-2), ("mm", 1e-3), ("um", 1e-6), ("µm", 1e-6), ("nm", 1e-9)]
     AREA area optional_area "an area" [("m2", 1.0), ("cm2", 1e-4), ("mm2", 1e-6), ("um2", 1e-12)]
     PRESSURE pressure optional_pressure "a pressure" [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9)]
+    HARDNESS hardness optional_hardness "a hardness" [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9), ("HV", 9.806_65e6)]
     STIFFNESS stiffness optional_stiffness "a stiffness per area" [("Pa/m", 1.0), ("kPa/m", 1e3), ("MPa/m", 1e6), ("GPa/m", 1e9), ("GPa/mm", 1e12)]
-    WORK_PER_AREA work_per_area optional_work_per_area "a work per area" [("J/m2", 1.0), ("J/m^2", 1.0), ("mJ/m2", 1e-3), ("mJ/m^2", 1e-3), ("N/m", 1.0), ("mN/m", 1e-3)]
     SPEED speed optional_speed "a speed" [("m/s", 1.0), ("cm/s", 1e-2), ("mm/s", 1e-3), ("km/h", 1.0 / 3.6)]
     SPIN spin optional_spin "an angular speed" [("rad/s", 1.0), ("deg/s", std::f64::consts::PI / 180.0), ("rpm", std::f64::consts::PI / 30.0)]
     FREQUENCY frequency optional_frequency "a frequency" [("Hz", 1.0), ("kHz", 1e3), ("rpm", 1.0 / 60.0)]
-    AREA_ENERGY area_energy optional_area_energy "an energy per area" [("J/m2", 1.0), ("J/m^2", 1.0), ("mJ/m2", 1e-3), ("mJ/m^2", 1e-3), ("N/m", 1.0)]
-    ANGLE angle optional_angle "an angle" [("rad", 1.0), ("deg", std::f64::consts::PI / 180.0)]
+    AREA_ENERGY area_energy optional_area_energy "an energy per area" [("J/m2", 1.0), ("J/m^2", 1.0), ("mJ/m2", 1e-3), ("mJ/m^2", 1e-3), ("N/m", 1.0), ("mN/m", 1e-3)]
+    ANGLE angle optional_angle "an angle" [("rad", 1.0), ("deg", std::f64::consts::PI / 180.0), ("°", std::f64::consts::PI / 180.0)]
     FORCE force optional_force "a force" [("N", 1.0), ("mN", 1e-3), ("kN", 1e3), ("MN", 1e6)]
     MASS mass optional_mass "a mass" [("kg", 1.0), ("g", 1e-3), ("mg", 1e-6), ("ug", 1e-9)]
     MASS_RATE mass_rate optional_mass_rate "a mass per time" [("kg/s", 1.0), ("g/s", 1e-3), ("mg/s", 1e-6), ("g/min", 1e-3 / 60.0), ("kg/h", 1.0 / 3600.0)]
@@ -315,6 +315,7 @@ mod tests {
         assert_eq!(LENGTH.parse("-1.5e-3 mm"), Ok(-1.5e-3 * 1e-3));
         assert_eq!(TIME.parse("1/240 s"), Ok(1.0 / 240.0));
         assert_eq!(ANGLE.parse("180 deg"), Ok(std::f64::consts::PI));
+        assert_eq!(HARDNESS.parse("200 HV"), Ok(200.0 * 9.806_65e6));
     }
 
     #[test]

@@ -62,6 +62,28 @@ fn faults_are_shown_where_they_stand() {
     }
 }
 
+/// Fails for a file of another kind that is answered with the words that are strange here, and for a fault in
+/// an argument that is taken for one of the file.
+#[test]
+fn a_file_of_another_kind_is_told_by_its_command() {
+    let folder = Folder::new("adhesive_kinds");
+    folder.write("bodies.ron", SCENE);
+    folder.write("map.ron", MAP);
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/one_ball.ron");
+    for (arguments, command) in [
+        (&["run", "bodies.ron"][..], "`abrade adhesive run`"),
+        (&["check", "map.ron"], "`abrade adhesive map`"),
+        (&["adhesive", "run", "map.ron"], "`abrade adhesive map`"),
+        (&["study", "erosion", scene], "`abrade run`"),
+    ] {
+        let said = folder.abrade(arguments);
+        assert_eq!(said.code, Some(2), "{arguments:?}: {}", said.err);
+        assert!(said.err.ends_with(&format!("is a file for {command}\n")), "{}", said.err);
+    }
+    let said = folder.abrade(&["adhesive", "run", "bodies.ron", "--set", "bodis.gap=1.0"]);
+    assert!(said.err.contains("did you mean `bodies`?"), "{}", said.err);
+}
+
 /// Fails for a map that is made again where it was broken off, or whose parts do not come to the same bytes.
 #[test]
 fn a_map_is_made_whole_or_in_parts_on_any_number_of_threads() {

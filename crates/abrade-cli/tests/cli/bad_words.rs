@@ -67,11 +67,11 @@ fn a_unit_in_the_wrong_case() {
         &[(r#""6.6 GPa""#, r#""6.6 Gpa""#)],
         &[],
         &[],
-        r#"error: `materials.plate.hardness`: `Gpa` does not measure a pressure
+        r#"error: `materials.plate.hardness`: `Gpa` does not measure a hardness
  --> scene.ron:6:25
   |
 6 |     "plate": (hardness: "6.6 Gpa", shear_ratio: 0.25, young: "200 GPa", poisson: 0.3, friction: 0.5),
-  |                         ^^^^^^^^^ expected a pressure in Pa, kPa, MPa or GPa
+  |                         ^^^^^^^^^ expected a hardness in Pa, kPa, MPa, GPa or HV
   |
   = help: did you mean `GPa`?
 
@@ -91,7 +91,7 @@ fn a_quoted_number_without_a_unit() {
   --> scene.ron:24:46
    |
 24 |       motion: Impact(speed: "35 m/s", angle: "45"),
-   |                                              ^^^^ expected an angle in rad or deg
+   |                                              ^^^^ expected an angle in rad, deg or °
 
 scene.ron: 1 problem, nothing was run
 "#,

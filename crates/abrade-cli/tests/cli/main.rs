@@ -13,6 +13,7 @@ mod bad_words;
 mod commands;
 mod laws;
 mod laws_beside;
+mod notes;
 mod studies;
 mod views;
 

@@ -1,6 +1,6 @@
 //! The models of a contact by name, and what they are made with.
 
-use abrade::quantity::{LENGTH, WORK_PER_AREA};
+use abrade::quantity::{AREA_ENERGY, LENGTH};
 
 use super::{PASCAL, PLAIN, condition, constant};
 use crate::contact::{
@@ -23,7 +23,7 @@ const MODULUS: Parameter = condition(
 );
 const ADHESION: Parameter = condition(
     "adhesion",
-    (Some(WORK_PER_AREA), "J/m2"),
+    (Some(AREA_ENERGY), "J/m2"),
     Allowed::Positive,
     "w: work of adhesion, what parts a unit of area",
 );

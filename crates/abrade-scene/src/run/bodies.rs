@@ -98,6 +98,8 @@ pub(crate) struct Slide {
     /// Where it slides to: the surface's x, in the world.
     heading: Vector3<f64>,
     force_sum: Vector3<f64>,
+    /// The last force of the surface on it [N].
+    force: Vector3<f64>,
 }
 
 impl Track {
@@ -131,6 +133,7 @@ impl Bodies {
                     start: body.state.position.coords,
                     heading: surface.map_or(Vector3::x(), |i| frames[i] * Vector3::x()),
                     force_sum: Vector3::zeros(),
+                    force: Vector3::zeros(),
                 }),
                 _ => None,
             };
@@ -424,6 +427,7 @@ impl Slide {
         self.travelled = (sample.state.position.coords - self.start).dot(&self.heading);
         self.volume = volume;
         self.force_sum += sample.force * (self.travelled - before);
+        self.force = sample.force;
         let threshold = self.distance - self.rate_over;
         let length = self.travelled - before;
         // Not before it slides: the indentation is no part of the rate.
@@ -440,9 +444,9 @@ impl Slide {
         (over > 0.0).then(|| (self.volume - from) / over)
     }
 
-    /// Mean force over the distance slid [N].
-    pub(crate) fn mean_force(&self) -> Option<Vector3<f64>> {
-        (self.travelled > 0.0).then(|| self.force_sum / self.travelled)
+    /// Mean force over the distance slid [N]; the last one of a body that only indents.
+    pub(crate) fn mean_force(&self) -> Vector3<f64> {
+        if self.travelled > 0.0 { self.force_sum / self.travelled } else { self.force }
     }
 }
 

@@ -10,10 +10,11 @@ use abrade_report::summary::{
 
 use crate::carrier::BuiltCarrier;
 use crate::check::Checked;
-use crate::run::bodies::{Bodies, Track};
+use crate::run::bodies::{Bodies, Slide, Track};
 use crate::run::engine::Engine;
 use crate::run::entries::entries;
 use crate::run::estimate;
+use crate::run::fate::{Fate, fate};
 use crate::run::stop::End;
 use crate::run::{Precision, RunError};
 use crate::scene::Output;
@@ -101,14 +102,15 @@ fn surface(run: &Run<'_>, index: usize) -> SurfaceSummary {
 
 fn body(run: &Run<'_>, index: usize, track: &Track) -> BodySummary {
     let state = run.engine.state(index);
+    let fate = fate(run, index, track);
     let slide = track.slide.as_ref();
-    let mean = slide.and_then(|slide| slide.mean_force());
+    let mean = slide.map(Slide::mean_force);
     let open = run.engine.open_contact(index);
     let (impulse, time) = open.unwrap_or_default();
     let (impulse, time) = (track.impulse + impulse, track.contact_time + time);
     let impact = (time > 0.0).then(|| impulse / time);
     let force = mean.or(impact).unwrap_or_default();
-    let parted = slide.is_none() && open.is_none() && !run.bodies.met_led(track);
+    let parted = fate == Fate::Left && run.failure.is_none() && !run.bodies.met_led(track);
     let approach = track.approach.filter(|v| parted && v.norm() > 0.0);
     let local = track.aim.map(|frame| frame.inverse_transform_vector(&state.velocity));
     let angle = |v: nalgebra::Vector3<f64>| v.z.atan2(v.xy().norm()).to_degrees();
@@ -153,6 +155,20 @@ fn warnings(run: &Run<'_>) -> Vec<String> {
         warnings.push(format!(
             "the largest contact on `{name}` was carried by {touching} nodes: {cure}"
         ));
+    }
+    let tracks = run.bodies.tracks.iter().enumerate().filter(|(_, track)| !track.is_streamed);
+    for (index, track) in tracks {
+        let name = &track.name;
+        match fate(run, index, track) {
+            Fate::Missed => warnings.push(format!(
+                "`{name}` has touched nothing: it passes beside the surfaces, or has not come to them yet"
+            )),
+            Fate::FellThrough => warnings.push(format!(
+                "`{name}` is below the surface that it was aimed at: it went over the rim, or between \
+                 nodes; its wear is cut short"
+            )),
+            Fate::Left | Fate::Stays | Fate::Led => {}
+        }
     }
     for (what, why, count) in &run.bodies.refused {
         warnings.push(format!("{what} was left to the engine in {count} steps, unworn: {why}"));

@@ -11,7 +11,7 @@ use super::vectors;
 #[serde(deny_unknown_fields)]
 pub struct Region {
     /// H of the nodes in the box [Pa]; their shear hardness is `shear_ratio` times that.
-    #[serde(deserialize_with = "quantity::pressure")]
+    #[serde(deserialize_with = "quantity::hardness")]
     #[schemars(with = "Quantity")]
     pub hardness: f64,
     /// Where they are.
