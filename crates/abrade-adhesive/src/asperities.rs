@@ -211,7 +211,7 @@ impl Asperities {
         let grid = crate::grid::Grid::new(&positions, assembly.period, 0.95 * self.diameter);
         let mut overlap = false;
         for i in 0..positions.len() {
-            grid.each_near(&positions, i, |j| overlap |= parts[i].is_upper != parts[j].is_upper);
+            grid.each_later(&positions, i, |j| overlap |= parts[i].is_upper != parts[j].is_upper);
         }
         overlap
     }

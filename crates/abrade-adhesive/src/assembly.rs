@@ -63,8 +63,8 @@ impl Assembly {
         let positions: Vec<[f64; 2]> = self.elements.iter().map(|e| e.position).collect();
         let grid = Grid::new(&positions, self.period, reach * self.diameter);
         for i in 0..positions.len() {
-            grid.each_near(&positions, i, |j| {
-                if i < j && is_one_body(i, j) {
+            grid.each_later(&positions, i, |j| {
+                if is_one_body(i, j) {
                     self.links.push(Link { ends: [i as u32, j as u32], can_break: true });
                 }
             });

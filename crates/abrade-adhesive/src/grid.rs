@@ -80,7 +80,10 @@ impl Grid {
     }
 
     fn cell_of(&self, [x, y]: [f64; 2]) -> [usize; 2] {
-        let x = self.period.map_or(x, |period| x.rem_euclid(period));
+        let x = match self.period {
+            Some(period) if !(0.0..period).contains(&x) => x.rem_euclid(period),
+            _ => x,
+        };
         let along = |value: f64, axis: usize| {
             let at = (value - self.corner[axis]) / self.cell[axis];
             (at.max(0.0) as usize).min(self.cells[axis] - 1)
@@ -92,26 +95,33 @@ impl Grid {
         row * self.cells[0] + column
     }
 
-    /// Calls `found` with every point nearer to point `i` than the reach, itself left out.
-    pub(crate) fn each_near(&self, points: &[[f64; 2]], i: usize, mut found: impl FnMut(usize)) {
-        let [column, row] = self.cell_of(points[i]);
+    /// Calls `found` with every point after point `i` that is nearer to it than the reach.
+    pub(crate) fn each_later(&self, points: &[[f64; 2]], i: usize, mut found: impl FnMut(usize)) {
+        let at = self.cell_of_point[i];
+        let [column, row] = [at % self.cells[0], at / self.cells[0]];
         let columns = self.around(column);
         for row in row.saturating_sub(1)..=(row + 1).min(self.cells[1] - 1) {
             for column in columns.into_iter().flatten() {
                 let cell = self.index([column, row]);
                 for j in &self.members[self.starts[cell]..self.starts[cell + 1]] {
                     let j = *j as usize;
-                    let mut dx = points[j][0] - points[i][0];
-                    if let Some(period) = self.period {
-                        dx -= period * (dx / period).round();
-                    }
-                    let dy = points[j][1] - points[i][1];
-                    if j != i && dx * dx + dy * dy < self.reach * self.reach {
+                    if j > i && self.square(points[i], points[j]) < self.reach * self.reach {
                         found(j);
                     }
                 }
             }
         }
+    }
+
+    /// Square of the distance of two points [m2].
+    fn square(&self, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
+        let (mut dx, dy) = (x1 - x0, y1 - y0);
+        if let Some(period) = self.period
+            && dx.abs() > 0.5 * period
+        {
+            dx -= period * (dx / period).round();
+        }
+        dx * dx + dy * dy
     }
 
     /// The columns beside `column` and itself, each once.

@@ -106,8 +106,8 @@ impl Neighbours {
         let partners = &self.partners[self.starts[i]..self.starts[i + 1]];
         let near = &mut self.near;
         near.clear();
-        self.grid.each_near(&self.positions, i, |j| {
-            if j > i && !partners.contains(&(j as u32)) {
+        self.grid.each_later(&self.positions, i, |j| {
+            if !partners.contains(&(j as u32)) {
                 near.push(j as u32);
             }
         });
