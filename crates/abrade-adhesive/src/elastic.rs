@@ -1,17 +1,19 @@
 //! Elastic trial of a step: mean stress of the elements, then normal and tangential stress of the pairs.
 
-use wide::f64x4;
+use multiversion::multiversion;
 
 use crate::elements::Elements;
-use crate::lanes::{BlockPass, Ends, LANES, Sides, load, sides, store};
+use crate::four::{Four, LANES};
+use crate::lanes::{BlockPass, Ends, Sides, load, sides, store};
 use crate::pairs::Pairs;
 use crate::solid::Constants;
 
 /// Increment of each element's mean stress, in closed form: c_N times the strain of its linked faces and
 /// what parted faces released. In plane strain sigma_zz takes A times it.
+#[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn mean_stress(elements: &mut Elements, constants: &Constants) {
     let count = elements.x.len();
-    let coupling = f64x4::splat(constants.coupling);
+    let coupling = Four::splat(constants.coupling);
     let [begun, ended] = sides(&mut elements.strain, count);
     let released = &mut elements.released[..count];
     let response = &elements.response[..count];
@@ -26,14 +28,15 @@ pub(crate) fn mean_stress(elements: &mut Elements, constants: &Constants) {
         store(mean_sum, at, sum);
         let along = load(szz, at) + coupling * mean;
         store(szz, at, along);
-        store(begun, at, f64x4::ZERO);
-        store(ended, at, f64x4::ZERO);
-        store(released, at, f64x4::ZERO);
+        store(begun, at, Four::ZERO);
+        store(ended, at, Four::ZERO);
+        store(released, at, Four::ZERO);
     }
 }
 
 /// Trial stresses of all pairs (the paper's Eq. 8, in increments); sums what makes the stress of the
 /// elements (its Eq. 7).
+#[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn trial(elements: &mut Elements, pairs: &mut Pairs, constants: &Constants) {
     let (count, length) = (elements.x.len(), pairs.nx.len());
     pairs.ends.sweep(&mut Trial {
@@ -48,8 +51,8 @@ pub(crate) fn trial(elements: &mut Elements, pairs: &mut Pairs, constants: &Cons
         ny: &pairs.ny[..length],
         normal: &mut pairs.normal[..length],
         tangential: &mut pairs.tangential[..length],
-        twice_shear: f64x4::splat(constants.twice_shear),
-        half_coupling: f64x4::splat(0.5 * constants.coupling),
+        twice_shear: Four::splat(constants.twice_shear),
+        half_coupling: Four::splat(0.5 * constants.coupling),
     });
 }
 
@@ -65,8 +68,8 @@ struct Trial<'a> {
     ny: &'a [f64],
     normal: &'a mut [f64],
     tangential: &'a mut [f64],
-    twice_shear: f64x4,
-    half_coupling: f64x4,
+    twice_shear: Four,
+    half_coupling: Four,
 }
 
 impl BlockPass for Trial<'_> {
@@ -87,7 +90,7 @@ impl BlockPass for Trial<'_> {
         let across = tangential * nxy;
         let xx = normal * nxx - across;
         let yy = normal * nyy + across;
-        let xy = normal * nxy + tangential * (nxx - nyy) * f64x4::splat(0.5);
+        let xy = normal * nxy + tangential * (nxx - nyy) * Four::splat(0.5);
         ends.add(&mut self.face_xx, [xx, xx]);
         ends.add(&mut self.face_yy, [yy, yy]);
         ends.add(&mut self.face_xy, [xy, xy]);

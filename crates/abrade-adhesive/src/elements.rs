@@ -2,7 +2,8 @@
 //! pairs and elements fill whole blocks.
 
 use crate::assembly::{Assembly, Hold};
-use crate::lanes::{LANES, Sum};
+use crate::four::LANES;
+use crate::lanes::Sum;
 use crate::solid::Constants;
 
 /// Columns of elements, each `padded` long.

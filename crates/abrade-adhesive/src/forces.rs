@@ -1,14 +1,16 @@
 //! Forces and torques of the pairs.
 
-use wide::f64x4;
+use multiversion::multiversion;
 
 use crate::elements::Elements;
+use crate::four::Four;
 use crate::lanes::{BlockPass, Ends, Sides, load, sides};
 use crate::pairs::Pairs;
 use crate::solid::Constants;
 
 /// Sums the forces of all pairs; the dashpots of linked ones add `viscosity` [Pa] times the strain of the
 /// step. Returns what the dashpots took [J].
+#[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn act(
     elements: &mut Elements,
     pairs: &Pairs,
@@ -28,12 +30,12 @@ pub(crate) fn act(
         distance: &pairs.distance[..length],
         normal: &pairs.normal[..length],
         tangential: &pairs.tangential[..length],
-        viscosity: f64x4::splat(viscosity),
-        face: f64x4::splat(constants.face),
-        square: f64x4::ZERO,
+        viscosity: Four::splat(viscosity),
+        face: Four::splat(constants.face),
+        square: Four::ZERO,
     };
     pairs.ends.sweep(&mut pass);
-    pass.square.reduce_add() * viscosity * constants.face * constants.diameter
+    pass.square.sum() * viscosity * constants.face * constants.diameter
 }
 
 struct Act<'a> {
@@ -48,10 +50,10 @@ struct Act<'a> {
     distance: &'a [f64],
     normal: &'a [f64],
     tangential: &'a [f64],
-    viscosity: f64x4,
-    face: f64x4,
+    viscosity: Four,
+    face: Four,
     /// Sum of the squares of the strains of dashpots.
-    square: f64x4,
+    square: Four,
 }
 
 impl BlockPass for Act<'_> {
@@ -65,7 +67,7 @@ impl BlockPass for Act<'_> {
         let (nx, ny) = (load(self.nx, at), load(self.ny, at));
         let fx = normal * nx - tangential * ny;
         let fy = normal * ny + tangential * nx;
-        let torque = f64x4::splat(0.5) * load(self.distance, at) * tangential;
+        let torque = Four::splat(0.5) * load(self.distance, at) * tangential;
         ends.add(&mut self.force_x, [fx, -fx]);
         ends.add(&mut self.force_y, [fy, -fy]);
         ends.add(&mut self.torque, [torque, torque]);

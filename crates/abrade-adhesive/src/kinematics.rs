@@ -1,13 +1,15 @@
 //! How far each pair moved in a step: along its line and across it, in the frame that turns with it.
 
-use wide::f64x4;
+use multiversion::multiversion;
 
 use crate::elements::Elements;
+use crate::four::Four;
 use crate::lanes::{BlockPass, Ends, Sides, load, sides, store};
 use crate::pairs::Pairs;
 use crate::solid::Constants;
 
 /// Distances, directions and strains of all pairs; sums the strain of the linked faces of each element.
+#[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn stretch(
     elements: &mut Elements,
     pairs: &mut Pairs,
@@ -27,8 +29,8 @@ pub(crate) fn stretch(
         distance: &mut pairs.distance[..length],
         stretch: &mut pairs.stretch[..length],
         shear: &mut pairs.shear[..length],
-        per_diameter: f64x4::splat(1.0 / constants.diameter),
-        half_step: f64x4::splat(0.5 * step),
+        per_diameter: Four::splat(1.0 / constants.diameter),
+        half_step: Four::splat(0.5 * step),
     });
 }
 
@@ -44,8 +46,8 @@ struct Stretch<'a> {
     distance: &'a mut [f64],
     stretch: &'a mut [f64],
     shear: &'a mut [f64],
-    per_diameter: f64x4,
-    half_step: f64x4,
+    per_diameter: Four,
+    half_step: Four,
 }
 
 impl BlockPass for Stretch<'_> {
@@ -58,7 +60,7 @@ impl BlockPass for Stretch<'_> {
         let dx = xj - xi + load(self.image, at);
         let dy = yj - yi;
         let distance = (dx * dx + dy * dy).sqrt();
-        let inverse = f64x4::splat(1.0) / distance;
+        let inverse = Four::splat(1.0) / distance;
         let (nx, ny) = (dx * inverse, dy * inverse);
         let strain = (distance - load(self.distance, at)) * self.per_diameter;
         let turn = load(self.nx, at) * ny - load(self.ny, at) * nx;

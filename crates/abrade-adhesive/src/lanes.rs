@@ -4,10 +4,7 @@
 //! ends. Blocks that follow each other then never add to overlapping quarters, for which a processor
 //! would wait.
 
-use wide::f64x4;
-
-/// Pairs in a block.
-pub(crate) const LANES: usize = 4;
+use crate::four::{Four, LANES};
 
 /// A sum over pairs: of those that an element begins, and of those that it ends.
 pub(crate) type Sum = [Vec<f64>; 2];
@@ -25,9 +22,17 @@ pub(crate) fn sides(sum: &mut Sum, count: usize) -> Sides<'_> {
 /// The ends of the pairs of a block.
 pub(crate) trait Ends: Copy {
     /// Values of a column at the first and the second ends.
-    fn get(self, column: &[f64]) -> [f64x4; 2];
+    fn get(self, column: &[f64]) -> [Four; 2];
+
+    /// The mean of the values at both ends.
+    #[inline(always)]
+    fn mean(self, column: &[f64]) -> Four {
+        let [i, j] = self.get(column);
+        Four::splat(0.5) * (i + j)
+    }
+
     /// Adds to the sum of the first ends, and of the second.
-    fn add(self, sum: &mut Sides, values: [f64x4; 2]);
+    fn add(self, sum: &mut Sides, values: [Four; 2]);
 }
 
 /// First ends that follow each other from an element on, and second ends likewise.
@@ -40,12 +45,12 @@ pub(crate) struct Loose(pub(crate) [[u32; LANES]; 2]);
 
 impl Ends for Run {
     #[inline(always)]
-    fn get(self, column: &[f64]) -> [f64x4; 2] {
+    fn get(self, column: &[f64]) -> [Four; 2] {
         [load(column, self.0[0] as usize), load(column, self.0[1] as usize)]
     }
 
     #[inline(always)]
-    fn add(self, sum: &mut Sides, values: [f64x4; 2]) {
+    fn add(self, sum: &mut Sides, values: [Four; 2]) {
         for side in 0..2 {
             let at = self.0[side] as usize;
             let old = load(sum[side], at);
@@ -56,18 +61,18 @@ impl Ends for Run {
 
 impl Ends for Loose {
     #[inline(always)]
-    fn get(self, column: &[f64]) -> [f64x4; 2] {
+    fn get(self, column: &[f64]) -> [Four; 2] {
         let four = |[a, b, c, d]: [u32; LANES]| {
             let at = |end: u32| column[end as usize];
-            f64x4::new([at(a), at(b), at(c), at(d)])
+            Four([at(a), at(b), at(c), at(d)])
         };
         [four(self.0[0]), four(self.0[1])]
     }
 
     #[inline(always)]
-    fn add(self, sum: &mut Sides, values: [f64x4; 2]) {
+    fn add(self, sum: &mut Sides, values: [Four; 2]) {
         for side in 0..2 {
-            let values = values[side].to_array();
+            let values = values[side].0;
             for (end, value) in self.0[side].iter().zip(values) {
                 sum[side][*end as usize] += value;
             }
@@ -77,15 +82,15 @@ impl Ends for Loose {
 
 /// Four numbers of a column.
 #[inline(always)]
-pub(crate) fn load(column: &[f64], at: usize) -> f64x4 {
+pub(crate) fn load(column: &[f64], at: usize) -> Four {
     let four: [f64; LANES] = column[at..at + LANES].try_into().expect("four numbers");
-    f64x4::new(four)
+    Four(four)
 }
 
 /// Writes four numbers of a column.
 #[inline(always)]
-pub(crate) fn store(column: &mut [f64], at: usize, values: f64x4) {
-    column[at..at + LANES].copy_from_slice(&values.to_array());
+pub(crate) fn store(column: &mut [f64], at: usize, values: Four) {
+    column[at..at + LANES].copy_from_slice(&values.0);
 }
 
 /// Something done to each block of four pairs.

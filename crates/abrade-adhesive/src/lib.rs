@@ -21,6 +21,7 @@ mod error;
 mod faces;
 mod flow;
 mod forces;
+mod four;
 mod grid;
 mod kinematics;
 mod lanes;

@@ -1,15 +1,17 @@
 //! Velocity Verlet, drag, and what is held.
 
-use wide::f64x4;
+use multiversion::multiversion;
 
 use crate::elements::Elements;
-use crate::lanes::{LANES, Sum, load, store};
+use crate::four::{Four, LANES};
+use crate::lanes::{Sum, load, store};
 use crate::solid::Constants;
 
 /// Half a step of the velocities.
+#[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn kick(elements: &mut Elements, step: f64) {
     let count = elements.x.len();
-    let half = f64x4::splat(0.5 * step);
+    let half = Four::splat(0.5 * step);
     let kick = |column: &mut Vec<f64>, sum: &Sum, mobility: &Vec<f64>| {
         let (column, mobility) = (&mut column[..count], &mobility[..count]);
         let (begun, ended) = (&sum[0][..count], &sum[1][..count]);
@@ -25,9 +27,10 @@ pub(crate) fn kick(elements: &mut Elements, step: f64) {
 }
 
 /// A step of the positions. The sums of forces begin anew.
+#[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn drift(elements: &mut Elements, step: f64) {
     let count = elements.x.len();
-    let along = f64x4::splat(step);
+    let along = Four::splat(step);
     let drift = |column: &mut Vec<f64>, speed: &Vec<f64>| {
         let (column, speed) = (&mut column[..count], &speed[..count]);
         for at in (0..count).step_by(LANES) {

@@ -4,7 +4,8 @@
 
 use crate::assembly::Assembly;
 use crate::elements::Elements;
-use crate::lanes::{AllEnds, LANES, Run};
+use crate::four::LANES;
+use crate::lanes::{AllEnds, Run};
 
 /// What holds a pair together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,9 +1,10 @@
 //! Pairs follow the plastic return of their ends; which links fail then, and which faces may meet.
 
-use wide::f64x4;
+use multiversion::multiversion;
 
 use crate::elements::Elements;
-use crate::lanes::{BlockPass, Ends, LANES, load, store};
+use crate::four::{Four, LANES};
+use crate::lanes::{BlockPass, Ends, load, store};
 use crate::pairs::Pairs;
 use crate::solid::Constants;
 
@@ -11,6 +12,7 @@ use crate::solid::Constants;
 pub(crate) type Due = Vec<(u32, u32)>;
 
 /// Returns the stresses of all pairs, and notes in `due` which may change.
+#[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn follow(elements: &Elements, pairs: &mut Pairs, constants: &Constants, due: &mut Due) {
     due.clear();
     let (count, length) = (elements.x.len(), pairs.nx.len());
@@ -27,8 +29,8 @@ pub(crate) fn follow(elements: &Elements, pairs: &mut Pairs, constants: &Constan
         ny: &pairs.ny[..length],
         normal: &mut pairs.normal[..length],
         tangential: &mut pairs.tangential[..length],
-        strength_mean: f64x4::splat(constants.strength_mean),
-        strength_shear: f64x4::splat(constants.strength_shear * constants.strength_shear),
+        strength_mean: Four::splat(constants.strength_mean),
+        strength_shear: Four::splat(constants.strength_shear * constants.strength_shear),
         due,
     });
 }
@@ -46,8 +48,8 @@ struct Follow<'a> {
     ny: &'a [f64],
     normal: &'a mut [f64],
     tangential: &'a mut [f64],
-    strength_mean: f64x4,
-    strength_shear: f64x4,
+    strength_mean: Four,
+    strength_shear: Four,
     due: &'a mut Due,
 }
 
@@ -55,7 +57,7 @@ impl BlockPass for Follow<'_> {
     /// Both ends' returns, averaged.
     #[inline(always)]
     fn block<E: Ends>(&mut self, at: usize, ends: E) {
-        let (half, one) = (f64x4::splat(0.5), f64x4::splat(1.0));
+        let (half, one) = (Four::splat(0.5), Four::splat(1.0));
         let live = load(self.live, at);
         let [kept_i, kept_j] = ends.get(self.kept);
         let [shifted_i, shifted_j] = ends.get(self.shifted);
@@ -66,7 +68,7 @@ impl BlockPass for Follow<'_> {
         let tangential = tangential - lost * tangential;
         store(self.normal, at, normal);
         store(self.tangential, at, tangential);
-        let fails = self.fails(at, ends, [normal, tangential]).to_bitmask();
+        let fails = self.fails(at, ends, [normal, tangential]);
         if fails != 0 || live != one {
             self.due.push((at as u32, fails));
         }
@@ -77,22 +79,19 @@ impl Follow<'_> {
     /// Drucker and Prager's criterion (the paper's Eq. 11) on the stress at the face: normal and tangential
     /// stress of the pair, the others as the mean of its ends. Squared, so that no root is drawn.
     #[inline(always)]
-    fn fails<E: Ends>(&self, at: usize, ends: E, [normal, tangential]: [f64x4; 2]) -> f64x4 {
-        let half = f64x4::splat(0.5);
-        let both = |column: &[f64]| {
-            let [i, j] = ends.get(column);
-            half * (i + j)
-        };
-        let (sxx, syy, sxy, szz) = (both(self.sxx), both(self.syy), both(self.sxy), both(self.szz));
+    fn fails<E: Ends>(&self, at: usize, ends: E, [normal, tangential]: [Four; 2]) -> u32 {
+        let half = Four::splat(0.5);
+        let (sxx, syy, sxy, szz) =
+            (ends.mean(self.sxx), ends.mean(self.syy), ends.mean(self.sxy), ends.mean(self.szz));
         let (nx, ny) = (load(self.nx, at), load(self.ny, at));
-        let along = sxx * (ny * ny) + syy * (nx * nx) - (sxy * (nx * ny)) * f64x4::splat(2.0);
-        let mean = (normal + along + szz) * f64x4::splat(1.0 / 3.0);
+        let along = sxx * (ny * ny) + syy * (nx * nx) - (sxy * (nx * ny)) * Four::splat(2.0);
+        let mean = (normal + along + szz) * Four::splat(1.0 / 3.0);
         let (a, b, c) = (normal - along, along - szz, szz - normal);
-        let three = f64x4::splat(3.0);
+        let three = Four::splat(3.0);
         let square = half * (a * a + b * b + c * c) + three * (tangential * tangential);
         let left = load(self.strength, at) - self.strength_mean * mean;
-        let left = left.fast_max(f64x4::ZERO);
-        (left * left).simd_le(self.strength_shear * square)
+        let left = left.max(Four::ZERO);
+        (left * left).up_to(self.strength_shear * square)
     }
 }
 
