@@ -2,6 +2,7 @@
 
 use multiversion::multiversion;
 
+use crate::block::Block;
 use crate::elements::Elements;
 use crate::four::{Four, LANES};
 use crate::lanes::{BlockPass, Ends, Sides, load, sides, store};
@@ -38,22 +39,18 @@ pub(crate) fn mean_stress(elements: &mut Elements, constants: &Constants) {
 /// elements (its Eq. 7).
 #[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn trial(elements: &mut Elements, pairs: &mut Pairs, constants: &Constants) {
-    let (count, length) = (elements.x.len(), pairs.nx.len());
-    pairs.ends.sweep(&mut Trial {
-        mean_step: &elements.mean_step[..count],
-        face_xx: sides(&mut elements.face_xx, count),
-        face_yy: sides(&mut elements.face_yy, count),
-        face_xy: sides(&mut elements.face_xy, count),
-        live: &pairs.live[..length],
-        stretch: &pairs.stretch[..length],
-        shear: &pairs.shear[..length],
-        nx: &pairs.nx[..length],
-        ny: &pairs.ny[..length],
-        normal: &mut pairs.normal[..length],
-        tangential: &mut pairs.tangential[..length],
-        twice_shear: Four::splat(constants.twice_shear),
-        half_coupling: Four::splat(0.5 * constants.coupling),
-    });
+    let count = elements.x.len();
+    pairs.ends.sweep(
+        &mut pairs.blocks,
+        &mut Trial {
+            mean_step: &elements.mean_step[..count],
+            face_xx: sides(&mut elements.face_xx, count),
+            face_yy: sides(&mut elements.face_yy, count),
+            face_xy: sides(&mut elements.face_xy, count),
+            twice_shear: Four::splat(constants.twice_shear),
+            half_coupling: Four::splat(0.5 * constants.coupling),
+        },
+    );
 }
 
 struct Trial<'a> {
@@ -61,13 +58,6 @@ struct Trial<'a> {
     face_xx: Sides<'a>,
     face_yy: Sides<'a>,
     face_xy: Sides<'a>,
-    live: &'a [f64],
-    stretch: &'a [f64],
-    shear: &'a [f64],
-    nx: &'a [f64],
-    ny: &'a [f64],
-    normal: &'a mut [f64],
-    tangential: &'a mut [f64],
     twice_shear: Four,
     half_coupling: Four,
 }
@@ -75,17 +65,15 @@ struct Trial<'a> {
 impl BlockPass for Trial<'_> {
     /// A pair needs one normal and one tangential stress: of equal materials both sides keep the same mean.
     #[inline(always)]
-    fn block<E: Ends>(&mut self, at: usize, ends: E) {
-        let live = load(self.live, at);
-        let stiff = live * self.twice_shear;
+    fn block<E: Ends>(&mut self, _: usize, block: &mut Block, ends: E) {
+        let stiff = block.live * self.twice_shear;
         let [mean_i, mean_j] = ends.get(self.mean_step);
-        let normal = load(self.normal, at)
-            + stiff * load(self.stretch, at)
-            + live * self.half_coupling * (mean_i + mean_j);
-        let tangential = load(self.tangential, at) + stiff * load(self.shear, at);
-        store(self.normal, at, normal);
-        store(self.tangential, at, tangential);
-        let (nx, ny) = (load(self.nx, at), load(self.ny, at));
+        let normal = block.normal
+            + stiff * block.stretch
+            + block.live * self.half_coupling * (mean_i + mean_j);
+        let tangential = block.tangential + stiff * block.shear;
+        (block.normal, block.tangential) = (normal, tangential);
+        let (nx, ny) = (block.nx, block.ny);
         let (nxx, nyy, nxy) = (nx * nx, ny * ny, nx * ny);
         let across = tangential * nxy;
         let xx = normal * nxx - across;

@@ -131,12 +131,6 @@ impl Elements {
         }
     }
 
-    /// Counts a linked face more or less of element `at`.
-    pub(crate) fn count_face(&mut self, at: usize, linked: u8, constants: &Constants) {
-        self.linked[at] = linked;
-        self.response[at] = constants.response_of(linked);
-    }
-
     /// The two ghosts that pairs end at which are not there.
     pub(crate) fn ghosts(&self) -> [u32; 2] {
         [self.count as u32, self.count as u32 + 1]

@@ -4,57 +4,132 @@
 //! bear. With pv, the stress that the pair would bear if its faces just touched, the gap under the
 //! traction s is g(s) = d (pv - s) / (2 G).
 
+use crate::block::Line;
 use crate::elements::Elements;
-use crate::pairs::{LinkState, Pairs};
+use crate::pairs::{Face, LinkState, Pairs};
 use crate::solid::Constants;
 
-/// Changes the state of a pair if it is due; returns the energy that was released [J].
-pub(crate) fn change(
-    elements: &mut Elements,
-    pairs: &mut Pairs,
-    constants: &Constants,
-    at: usize,
-    does_fail: bool,
-) -> f64 {
-    if pairs.state[at] == LinkState::Far || (pairs.state[at] == LinkState::Linked && !does_fail) {
-        return 0.0;
+/// A pair that may change.
+pub(crate) struct Change<'a> {
+    pub(crate) ends: [u32; 2],
+    pub(crate) line: &'a mut Line,
+    pub(crate) face: &'a mut Face,
+}
+
+/// What faces change of the elements, and what they go by.
+pub(crate) struct Faces<'a> {
+    pub(crate) constants: &'a Constants,
+    pub(crate) mean: &'a [f64],
+    pub(crate) mean_sum: &'a [f64],
+    pub(crate) released: &'a mut [f64],
+    pub(crate) linked: &'a mut [u8],
+    pub(crate) response: &'a mut [f64],
+}
+
+impl Faces<'_> {
+    /// Changes the state of a pair if it is due; returns the energy that was released [J].
+    pub(crate) fn change(&mut self, mut pair: Change, does_fail: bool) -> f64 {
+        let state = pair.face.state;
+        let fails = does_fail && pair.face.can_break;
+        if state == LinkState::Far || (state == LinkState::Linked && !fails) {
+            return 0.0;
+        }
+        let [i, j] = pair.ends.map(|end| end as usize);
+        let mean = self.mean[i] + self.mean[j];
+        let held = self.mean_sum[i] + self.mean_sum[j];
+        let before = pair_work(pair.line, self.constants, held);
+        match state {
+            LinkState::Linked => self.fail(&mut pair, mean),
+            LinkState::Adhering => self.adhere(&mut pair, mean),
+            LinkState::Open => self.meet(&mut pair, mean),
+            LinkState::Far => {}
+        }
+        before - pair_work(pair.line, self.constants, held)
     }
-    let ends = pairs.ends.of(at).map(|end| end as usize);
-    let mean = elements.mean[ends[0]] + elements.mean[ends[1]];
-    let held = elements.mean_sum[ends[0]] + elements.mean_sum[ends[1]];
-    let before = pair_work(pairs, constants, at, held);
-    match pairs.state[at] {
-        LinkState::Linked => fail(elements, pairs, constants, (at, ends), mean),
-        LinkState::Adhering => adhere(elements, pairs, constants, (at, ends), mean),
-        LinkState::Open => meet(elements, pairs, constants, (at, ends), mean),
-        LinkState::Far => {}
+
+    /// A link fails. Under a tension that adhesion bears, its faces stay in touch and slip.
+    fn fail(&mut self, pair: &mut Change, mean: f64) {
+        let Self { constants, .. } = self;
+        pair.face.breaks += 1;
+        pair.line.stress[1] = 0.0;
+        let stress = pair.line.stress[0];
+        if stress <= constants.adhesion {
+            return;
+        }
+        let own = stress - 0.5 * constants.coupling * mean;
+        pair.face.contact = pair.line.distance - constants.diameter * own / constants.twice_shear;
+        pair.line.live = 0.0;
+        let adheres = stress - constants.adhesion <= range_stress(constants);
+        let kept = if adheres { constants.adhesion } else { 0.0 };
+        pair.face.state = if adheres { LinkState::Adhering } else { LinkState::Open };
+        pair.line.stress[0] = kept;
+        self.release(pair.ends, stress - kept);
+        for end in pair.ends {
+            self.count_face(end, self.linked[end as usize] - 1);
+        }
     }
-    before - pair_work(pairs, constants, at, held)
-}
 
-/// What the faces of a linked pair hold [J]; `mean` is the sum of both ends' `mean_sum` [Pa].
-pub(crate) fn pair_energy(pairs: &Pairs, constants: &Constants, at: usize, mean: f64) -> f64 {
-    let own = pairs.normal[at] - 0.5 * constants.coupling * mean;
-    let across = pairs.tangential[at];
-    let square = pairs.live[at] * (own * own + across * across);
-    constants.face * constants.diameter * square / (2.0 * constants.twice_shear)
-}
+    /// Adhering faces open beyond the range, and weld when they touch.
+    fn adhere(&mut self, pair: &mut Change, mean: f64) {
+        let adhesion = self.constants.adhesion;
+        let apart = self.touching_stress(pair, mean) - adhesion;
+        if apart <= 0.0 {
+            self.weld(pair, apart + adhesion);
+        } else if apart > range_stress(self.constants) {
+            pair.face.state = LinkState::Open;
+            pair.line.stress[0] = 0.0;
+            self.release(pair.ends, adhesion);
+        }
+    }
 
-/// What a pair that changes takes with it [J]: the energy from before the step, and the work of the step,
-/// half of which the old stress did while the new one does the other half.
-fn pair_work(pairs: &Pairs, constants: &Constants, at: usize, mean: f64) -> f64 {
-    let own = pairs.normal[at] - 0.5 * constants.coupling * mean;
-    let across = pairs.tangential[at];
-    let old_own = own - constants.twice_shear * pairs.stretch[at];
-    let old_across = across - constants.twice_shear * pairs.shear[at];
-    let product = pairs.live[at] * (own * old_own + across * old_across);
-    constants.face * constants.diameter * product / (2.0 * constants.twice_shear)
-}
+    /// Open faces that come within the range are drawn together: into touch, where adhesion is stronger
+    /// than the faces are stiff over its range.
+    fn meet(&mut self, pair: &mut Change, mean: f64) {
+        let adhesion = self.constants.adhesion;
+        let stress = self.touching_stress(pair, mean);
+        let range = range_stress(self.constants);
+        if stress > range {
+            return;
+        }
+        if adhesion > range || stress <= 0.0 {
+            self.weld(pair, stress);
+        } else {
+            pair.face.state = LinkState::Adhering;
+            pair.line.stress[0] = adhesion;
+            self.release(pair.ends, -adhesion);
+        }
+    }
 
-/// Stress that the pair would bear if its faces just touched, pv [Pa].
-fn touching_stress(pairs: &Pairs, constants: &Constants, at: usize, mean: f64) -> f64 {
-    let strain = (pairs.distance[at] - pairs.contact[at]) / constants.diameter;
-    constants.twice_shear * strain + 0.5 * constants.coupling * mean
+    /// Faces in touch are one: a link that bears `stress` [Pa].
+    fn weld(&mut self, pair: &mut Change, stress: f64) {
+        self.release(pair.ends, pair.line.stress[0] - stress);
+        pair.face.state = LinkState::Linked;
+        pair.line.live = 1.0;
+        pair.line.stress = [stress, 0.0];
+        for end in pair.ends {
+            self.count_face(end, self.linked[end as usize] + 1);
+        }
+    }
+
+    /// Stress that the pair would bear if its faces just touched, pv [Pa].
+    fn touching_stress(&self, pair: &Change, mean: f64) -> f64 {
+        let Self { constants, .. } = self;
+        let strain = (pair.line.distance - pair.face.contact) / constants.diameter;
+        constants.twice_shear * strain + 0.5 * constants.coupling * mean
+    }
+
+    /// Faces give by the strain s / (2 G) when the traction `drop` [Pa] leaves them at fixed centres; the
+    /// next mean stress takes it in.
+    fn release(&mut self, ends: [u32; 2], drop: f64) {
+        for end in ends {
+            self.released[end as usize] -= drop / self.constants.twice_shear;
+        }
+    }
+
+    fn count_face(&mut self, end: u32, linked: u8) {
+        self.linked[end as usize] = linked;
+        self.response[end as usize] = self.constants.response_of(linked);
+    }
 }
 
 /// Stress that closes the range of adhesion, 2 G delta / d [Pa].
@@ -62,109 +137,34 @@ fn range_stress(constants: &Constants) -> f64 {
     constants.twice_shear * constants.adhesion_range / constants.diameter
 }
 
-/// A link fails. Under a tension that adhesion bears, its faces stay in touch and slip.
-fn fail(
-    elements: &mut Elements,
-    pairs: &mut Pairs,
-    constants: &Constants,
-    (at, ends): (usize, [usize; 2]),
-    mean: f64,
-) {
-    pairs.breaks[at] += 1;
-    pairs.tangential[at] = 0.0;
-    let stress = pairs.normal[at];
-    if stress <= constants.adhesion {
-        return;
-    }
-    let own = stress - 0.5 * constants.coupling * mean;
-    pairs.contact[at] = pairs.distance[at] - constants.diameter * own / constants.twice_shear;
-    pairs.live[at] = 0.0;
-    let adheres = stress - constants.adhesion <= range_stress(constants);
-    let kept = if adheres { constants.adhesion } else { 0.0 };
-    pairs.state[at] = if adheres { LinkState::Adhering } else { LinkState::Open };
-    pairs.normal[at] = kept;
-    release(elements, constants, ends, stress - kept);
-    for end in ends {
-        elements.count_face(end, elements.linked[end] - 1, constants);
-    }
+/// What the faces of a linked pair hold [J]; `mean` is the sum of both ends' `mean_sum` [Pa].
+pub(crate) fn pair_energy(line: &Line, constants: &Constants, mean: f64) -> f64 {
+    let [normal, across] = line.stress;
+    let own = normal - 0.5 * constants.coupling * mean;
+    let square = line.live * (own * own + across * across);
+    constants.face * constants.diameter * square / (2.0 * constants.twice_shear)
 }
 
-/// Adhering faces open beyond the range, and weld when they touch.
-fn adhere(
-    elements: &mut Elements,
-    pairs: &mut Pairs,
-    constants: &Constants,
-    (at, ends): (usize, [usize; 2]),
-    mean: f64,
-) {
-    let apart = touching_stress(pairs, constants, at, mean) - constants.adhesion;
-    if apart <= 0.0 {
-        weld(elements, pairs, constants, (at, ends), apart + constants.adhesion);
-    } else if apart > range_stress(constants) {
-        pairs.state[at] = LinkState::Open;
-        pairs.normal[at] = 0.0;
-        release(elements, constants, ends, constants.adhesion);
-    }
-}
-
-/// Open faces that come within the range are drawn together: into touch, where adhesion is stronger
-/// than the faces are stiff over its range.
-fn meet(
-    elements: &mut Elements,
-    pairs: &mut Pairs,
-    constants: &Constants,
-    (at, ends): (usize, [usize; 2]),
-    mean: f64,
-) {
-    let stress = touching_stress(pairs, constants, at, mean);
-    let range = range_stress(constants);
-    if stress > range {
-        return;
-    }
-    if constants.adhesion > range || stress <= 0.0 {
-        weld(elements, pairs, constants, (at, ends), stress);
-    } else {
-        pairs.state[at] = LinkState::Adhering;
-        pairs.normal[at] = constants.adhesion;
-        release(elements, constants, ends, -constants.adhesion);
-    }
-}
-
-/// Faces in touch are one: a link that bears `stress` [Pa].
-fn weld(
-    elements: &mut Elements,
-    pairs: &mut Pairs,
-    constants: &Constants,
-    (at, ends): (usize, [usize; 2]),
-    stress: f64,
-) {
-    release(elements, constants, ends, pairs.normal[at] - stress);
-    pairs.state[at] = LinkState::Linked;
-    pairs.live[at] = 1.0;
-    pairs.normal[at] = stress;
-    pairs.tangential[at] = 0.0;
-    for end in ends {
-        elements.count_face(end, elements.linked[end] + 1, constants);
-    }
-}
-
-/// Faces give by the strain s / (2 G) when the traction `drop` [Pa] leaves them at fixed centres; the next
-/// mean stress takes it in.
-fn release(elements: &mut Elements, constants: &Constants, ends: [usize; 2], drop: f64) {
-    for end in ends {
-        elements.released[end] -= drop / constants.twice_shear;
-    }
+/// What a pair that changes takes with it [J]: the energy from before the step, and the work of the step,
+/// half of which the old stress did while the new one does the other half.
+fn pair_work(line: &Line, constants: &Constants, mean: f64) -> f64 {
+    let [normal, across] = line.stress;
+    let own = normal - 0.5 * constants.coupling * mean;
+    let old_own = own - constants.twice_shear * line.strain[0];
+    let old_across = across - constants.twice_shear * line.strain[1];
+    let product = line.live * (own * old_own + across * old_across);
+    constants.face * constants.diameter * product / (2.0 * constants.twice_shear)
 }
 
 /// Counts the linked faces of all elements.
 pub(crate) fn count_links(elements: &mut Elements, pairs: &Pairs, constants: &Constants) {
-    let mut linked = vec![0u8; elements.x.len()];
-    for at in (0..pairs.len()).filter(|at| pairs.state[*at] == LinkState::Linked) {
+    elements.linked.fill(0);
+    for (at, _) in pairs.linked() {
         for end in pairs.ends.of(at) {
-            linked[end as usize] += 1;
+            elements.linked[end as usize] += 1;
         }
     }
-    for (at, linked) in linked.into_iter().enumerate() {
-        elements.count_face(at, linked, constants);
+    for (response, linked) in elements.response.iter_mut().zip(&elements.linked) {
+        *response = constants.response_of(*linked);
     }
 }

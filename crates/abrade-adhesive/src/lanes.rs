@@ -1,9 +1,10 @@
-//! Four numbers at a time: the ends of four pairs, beside each other in the columns or anywhere.
+//! Passes over blocks of four pairs, whose ends lie beside each other in the columns of elements or anywhere.
 //!
 //! Sums over an element's pairs stand in two columns, of the pairs that it begins and of those that it
 //! ends. Blocks that follow each other then never add to overlapping quarters, for which a processor
 //! would wait.
 
+use crate::block::Block;
 use crate::four::{Four, LANES};
 
 /// A sum over pairs: of those that an element begins, and of those that it ends.
@@ -33,6 +34,9 @@ pub(crate) trait Ends: Copy {
 
     /// Adds to the sum of the first ends, and of the second.
     fn add(self, sum: &mut Sides, values: [Four; 2]);
+
+    /// The ends of one pair.
+    fn of(self, lane: usize) -> [u32; 2];
 }
 
 /// First ends that follow each other from an element on, and second ends likewise.
@@ -57,6 +61,10 @@ impl Ends for Run {
             store(sum[side], at, old + values[side]);
         }
     }
+
+    fn of(self, lane: usize) -> [u32; 2] {
+        self.0.map(|first| first + lane as u32)
+    }
 }
 
 impl Ends for Loose {
@@ -78,6 +86,10 @@ impl Ends for Loose {
             }
         }
     }
+
+    fn of(self, lane: usize) -> [u32; 2] {
+        [self.0[0][lane], self.0[1][lane]]
+    }
 }
 
 /// Four numbers of a column.
@@ -95,39 +107,36 @@ pub(crate) fn store(column: &mut [f64], at: usize, values: Four) {
 
 /// Something done to each block of four pairs.
 pub(crate) trait BlockPass {
-    /// Does it to the block whose first pair is `at`.
-    fn block<E: Ends>(&mut self, at: usize, ends: E);
+    /// Does it to block `at`.
+    fn block<E: Ends>(&mut self, at: usize, block: &mut Block, ends: E);
 }
 
-/// The ends of all pairs: blocks whose ends follow each other, then loose pairs, four by four.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// The ends of all pairs: blocks whose ends follow each other, then loose pairs.
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct AllEnds {
     pub(crate) runs: Vec<Run>,
-    pub(crate) loose: [Vec<u32>; 2],
+    pub(crate) loose: Vec<Loose>,
 }
 
 impl AllEnds {
     /// Does a pass over all blocks, in their order.
     #[inline(always)]
-    pub(crate) fn sweep(&self, pass: &mut impl BlockPass) {
-        let mut at = 0;
-        for run in &self.runs {
-            pass.block(at, *run);
-            at += LANES;
+    pub(crate) fn sweep(&self, blocks: &mut [Block], pass: &mut impl BlockPass) {
+        let (in_runs, loose) = blocks.split_at_mut(self.runs.len());
+        for (at, (block, ends)) in in_runs.iter_mut().zip(&self.runs).enumerate() {
+            pass.block(at, block, *ends);
         }
-        let (first, _) = self.loose[0].as_chunks::<LANES>();
-        let (second, _) = self.loose[1].as_chunks::<LANES>();
-        for (first, second) in first.iter().zip(second) {
-            pass.block(at, Loose([*first, *second]));
-            at += LANES;
+        for (at, (block, ends)) in loose.iter_mut().zip(&self.loose).enumerate() {
+            pass.block(self.runs.len() + at, block, *ends);
         }
     }
 
     /// The ends of pair `at`.
     pub(crate) fn of(&self, at: usize) -> [u32; 2] {
-        match at.checked_sub(self.runs.len() * LANES) {
-            Some(loose) => [self.loose[0][loose], self.loose[1][loose]],
-            None => self.runs[at / LANES].0.map(|first| first + (at % LANES) as u32),
+        let (block, lane) = (at / LANES, at % LANES);
+        match block.checked_sub(self.runs.len()) {
+            Some(loose) => self.loose[loose].of(lane),
+            None => self.runs[block].of(lane),
         }
     }
 }

@@ -12,6 +12,7 @@
 
 mod asperities;
 mod assembly;
+mod block;
 mod classify;
 mod collision;
 mod components;
@@ -32,6 +33,7 @@ mod packing;
 mod pairs;
 mod profile;
 mod returned;
+mod settle;
 mod simulation;
 mod solid;
 

@@ -34,7 +34,7 @@ impl Neighbours {
         period: Option<f64>,
     ) -> Self {
         let mut original: Vec<[u32; 2]> = (0..pairs.original)
-            .filter(|at| pairs.state[*at] == LinkState::Linked)
+            .filter(|at| pairs.faces[*at].state == LinkState::Linked)
             .map(|at| pairs.ends.of(at))
             .collect();
         original.sort_unstable();
@@ -64,7 +64,7 @@ impl Neighbours {
         self.judge_original(pairs);
         self.met.clear();
         self.met.extend((pairs.original..pairs.len()).map(|at| pairs.met(at)));
-        pairs.truncate(pairs.original);
+        pairs.take_off_met();
         for (at, position) in self.positions.iter_mut().enumerate() {
             *position = [elements.x[at], elements.y[at]];
         }
@@ -91,11 +91,11 @@ impl Neighbours {
         for at in 0..pairs.original {
             // Not a pair of ghosts.
             let is_pair = (pairs.ends.of(at)[0] as usize) < self.positions.len();
-            match pairs.state[at] {
-                LinkState::Open if pairs.distance[at] > cut => pairs.state[at] = LinkState::Far,
-                LinkState::Far if pairs.distance[at] <= cut && is_pair => {
-                    pairs.state[at] = LinkState::Open;
-                }
+            let distance = pairs.line(at).distance;
+            let state = &mut pairs.faces[at].state;
+            match state {
+                LinkState::Open if distance > cut => *state = LinkState::Far,
+                LinkState::Far if distance <= cut && is_pair => *state = LinkState::Open,
                 _ => {}
             }
         }
@@ -111,7 +111,7 @@ impl Neighbours {
                 near.push(j as u32);
             }
         });
-        let holds = |met: &&Met| matches!(met.state, LinkState::Linked | LinkState::Adhering);
+        let holds = |met: &&Met| matches!(met.face.state, LinkState::Linked | LinkState::Adhering);
         near.extend(self.met[of_i].iter().filter(holds).map(|met| met.ends[1]));
         near.sort_unstable();
         near.dedup();

@@ -1,11 +1,12 @@
-//! Pairs of elements as columns, in blocks of four: first blocks whose ends follow each other in the
+//! Pairs of elements, in blocks of four: first blocks whose ends follow each other in the
 //! columns of elements, then loose pairs. Pairs that were linked at the start keep their places; those
 //! that met later stand behind them and are listed anew from time to time.
 
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, Link};
+use crate::block::{Block, Line};
 use crate::elements::Elements;
 use crate::four::LANES;
-use crate::lanes::{AllEnds, Run};
+use crate::lanes::{AllEnds, Loose, Run};
 
 /// What holds a pair together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,92 +38,58 @@ pub struct Pair {
     pub is_original: bool,
 }
 
-/// What a pair that met keeps while pairs are listed anew.
+/// What of a pair its faces need when they change.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Face {
+    pub(crate) state: LinkState,
+    /// Whether a link may fail.
+    pub(crate) can_break: bool,
+    /// How often the link failed.
+    pub(crate) breaks: u32,
+    /// Distance at which the faces would just touch without stress [m].
+    pub(crate) contact: f64,
+}
+
+/// A pair that met, while pairs are listed anew.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Met {
     pub(crate) ends: [u32; 2],
-    pub(crate) state: LinkState,
-    direction: [f64; 2],
-    distance: f64,
-    image: f64,
-    stress: [f64; 2],
-    contact: f64,
-    breaks: u32,
+    pub(crate) face: Face,
+    line: Line,
 }
 
-/// Columns of pairs.
+/// All pairs.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Pairs {
     pub(crate) ends: AllEnds,
     /// Pairs before this one, loose or not, were linked at the start.
     pub(crate) original: usize,
-    /// Unit vector from the first to the second end, their distance [m], and what periodicity adds to x [m].
-    pub(crate) nx: Vec<f64>,
-    pub(crate) ny: Vec<f64>,
-    pub(crate) distance: Vec<f64>,
-    pub(crate) image: Vec<f64>,
-    /// Strain of this step along and across [-].
-    pub(crate) stretch: Vec<f64>,
-    pub(crate) shear: Vec<f64>,
-    /// 1 while linked, else 0.
-    pub(crate) live: Vec<f64>,
-    /// Normal and tangential stress [Pa].
-    pub(crate) normal: Vec<f64>,
-    pub(crate) tangential: Vec<f64>,
-    /// Compressive strength, infinite for links that hold [Pa].
-    pub(crate) strength: Vec<f64>,
-    pub(crate) state: Vec<LinkState>,
-    /// Distance at which the faces would just touch without stress [m].
-    pub(crate) contact: Vec<f64>,
-    /// How often the link failed.
-    pub(crate) breaks: Vec<u32>,
-    /// Compressive strength of a link that can break [Pa].
-    breaking: f64,
+    /// What every step takes of them, by fours, and what changes take.
+    pub(crate) blocks: Vec<Block>,
+    pub(crate) faces: Vec<Face>,
 }
 
 impl Pairs {
-    /// The links of an assembly between `elements`, with the strength `strength` [Pa] of those that can
-    /// break.
-    pub(crate) fn new(assembly: &Assembly, elements: &Elements, strength: f64) -> Self {
-        let mut links: Vec<([u32; 2], bool)> = assembly
-            .links
-            .iter()
-            .map(|link| {
-                ([link.ends[0].min(link.ends[1]), link.ends[0].max(link.ends[1])], link.can_break)
-            })
-            .collect();
-        links.sort_unstable_by_key(|([i, j], _)| (j - i, *i));
-        links.dedup_by_key(|(ends, _)| *ends);
-        let (runs, loose) = blocks(&links);
+    /// The links of an assembly between `elements`.
+    pub(crate) fn new(assembly: &Assembly, elements: &Elements) -> Self {
+        let (diameter, period) = (assembly.diameter, assembly.period);
+        let (runs, loose) = runs(&links(assembly));
         let mut pairs = Self {
             ends: AllEnds {
-                runs: runs.iter().map(|run| Run(run[0].0)).collect(),
-                loose: [Vec::new(), Vec::new()],
+                runs: runs.iter().map(|run| Run(run[0].ends)).collect(),
+                loose: Vec::new(),
             },
             original: 0,
-            nx: Vec::new(),
-            ny: Vec::new(),
-            distance: Vec::new(),
-            image: Vec::new(),
-            stretch: Vec::new(),
-            shear: Vec::new(),
-            live: Vec::new(),
-            normal: Vec::new(),
-            tangential: Vec::new(),
-            strength: Vec::new(),
-            state: Vec::new(),
-            contact: Vec::new(),
-            breaks: Vec::new(),
-            breaking: strength,
+            blocks: Vec::new(),
+            faces: Vec::new(),
         };
-        let diameter = assembly.diameter;
-        for (ends, can_break) in runs.iter().flatten() {
-            pairs.columns_push(diameter, elements, *ends, assembly.period);
-            pairs.link_last(*can_break);
+        for link in runs.iter().flatten() {
+            pairs.push(diameter, elements, link.ends, period);
+            pairs.link_last(link.can_break);
         }
-        for (ends, can_break) in &loose {
-            pairs.push_loose(diameter, elements, *ends, assembly.period);
-            pairs.link_last(*can_break);
+        for link in &loose {
+            pairs.push_loose(diameter, elements, link.ends, period);
+            pairs.link_last(link.can_break);
         }
         pairs.pad(diameter, elements);
         pairs.original = pairs.len();
@@ -130,7 +97,18 @@ impl Pairs {
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.nx.len()
+        self.faces.len()
+    }
+
+    /// What every step takes of pair `at`.
+    pub(crate) fn line(&self, at: usize) -> Line {
+        self.blocks[at / LANES].line(at % LANES)
+    }
+
+    /// The linked pairs, each with its place.
+    pub(crate) fn linked(&self) -> impl Iterator<Item = (usize, Line)> {
+        let is_linked = |at: &usize| self.faces[*at].state == LinkState::Linked;
+        (0..self.len()).filter(is_linked).map(|at| (at, self.line(at)))
     }
 
     /// Adds a loose pair, which is open, with faces that would touch at `contact` [m].
@@ -141,116 +119,93 @@ impl Pairs {
         ends: [u32; 2],
         period: Option<f64>,
     ) {
-        self.ends.loose[0].push(ends[0]);
-        self.ends.loose[1].push(ends[1]);
-        self.columns_push(contact, elements, ends, period);
+        let lane = self.len() % LANES;
+        if lane == 0 {
+            self.ends.loose.push(Loose([[0; LANES]; 2]));
+        }
+        let Loose([first, second]) = self.ends.loose.last_mut().expect("a block with room");
+        [first[lane], second[lane]] = ends;
+        self.push(contact, elements, ends, period);
     }
 
     /// Fills the last block with pairs of ghosts.
     pub(crate) fn pad(&mut self, diameter: f64, elements: &Elements) {
         while !self.len().is_multiple_of(LANES) {
             self.push_loose(diameter, elements, elements.ghosts(), None);
-            let last = self.len() - 1;
-            self.state[last] = LinkState::Far;
+            self.last_face().state = LinkState::Far;
         }
     }
 
     /// What pair `at` keeps while pairs are listed anew.
     pub(crate) fn met(&self, at: usize) -> Met {
-        Met {
-            ends: self.ends.of(at),
-            state: self.state[at],
-            direction: [self.nx[at], self.ny[at]],
-            distance: self.distance[at],
-            image: self.image[at],
-            stress: [self.normal[at], self.tangential[at]],
-            contact: self.contact[at],
-            breaks: self.breaks[at],
-        }
+        Met { ends: self.ends.of(at), face: self.faces[at], line: self.line(at) }
     }
 
     /// Gives the last pair what it kept.
     pub(crate) fn restore_last(&mut self, met: &Met) {
-        let last = self.len() - 1;
-        self.state[last] = met.state;
-        self.live[last] = if met.state == LinkState::Linked { 1.0 } else { 0.0 };
-        [self.nx[last], self.ny[last]] = met.direction;
-        self.distance[last] = met.distance;
-        self.image[last] = met.image;
-        [self.normal[last], self.tangential[last]] = met.stress;
-        self.contact[last] = met.contact;
-        self.breaks[last] = met.breaks;
+        *self.last_face() = met.face;
+        let lane = (self.len() - 1) % LANES;
+        self.last_block().put(lane, &met.line);
     }
 
-    /// Takes off all pairs from `count` on.
-    pub(crate) fn truncate(&mut self, count: usize) {
-        let loose = count - self.ends.runs.len() * LANES;
-        self.ends.loose.iter_mut().for_each(|ends| ends.truncate(loose));
-        self.numbers().for_each(|column| column.truncate(count));
-        self.state.truncate(count);
-        self.breaks.truncate(count);
+    /// Takes off all pairs that were not linked at the start.
+    pub(crate) fn take_off_met(&mut self) {
+        let blocks = self.original / LANES;
+        self.ends.loose.truncate(blocks - self.ends.runs.len());
+        self.blocks.truncate(blocks);
+        self.faces.truncate(self.original);
     }
 
-    /// The columns of numbers.
-    fn numbers(&mut self) -> impl Iterator<Item = &mut Vec<f64>> {
-        [
-            &mut self.nx,
-            &mut self.ny,
-            &mut self.distance,
-            &mut self.image,
-            &mut self.stretch,
-            &mut self.shear,
-            &mut self.live,
-            &mut self.normal,
-            &mut self.tangential,
-            &mut self.strength,
-            &mut self.contact,
-        ]
-        .into_iter()
-    }
-
-    fn columns_push(
-        &mut self,
-        contact: f64,
-        elements: &Elements,
-        [i, j]: [u32; 2],
-        period: Option<f64>,
-    ) {
-        let [i, j] = [i as usize, j as usize];
-        let dx = elements.x[j] - elements.x[i];
-        let image = period.map_or(0.0, |period| -period * (dx / period).round());
-        let (dx, dy) = (dx + image, elements.y[j] - elements.y[i]);
-        let distance = dx.hypot(dy);
-        self.numbers().for_each(|column| column.push(0.0));
-        let last = self.len() - 1;
-        self.nx[last] = dx / distance;
-        self.ny[last] = dy / distance;
-        self.distance[last] = distance;
-        self.image[last] = image;
-        self.strength[last] = self.breaking;
-        self.contact[last] = contact;
-        self.state.push(LinkState::Open);
-        self.breaks.push(0);
+    fn push(&mut self, contact: f64, elements: &Elements, ends: [u32; 2], period: Option<f64>) {
+        let lane = self.len() % LANES;
+        if lane == 0 {
+            self.blocks.push(Block::EMPTY);
+        }
+        self.last_block().put(lane, &Line::new(elements, ends, period));
+        self.faces.push(Face { state: LinkState::Open, can_break: true, breaks: 0, contact });
     }
 
     fn link_last(&mut self, can_break: bool) {
-        let last = self.len() - 1;
-        self.state[last] = LinkState::Linked;
-        self.live[last] = 1.0;
-        if !can_break {
-            self.strength[last] = f64::INFINITY;
-        }
+        let lane = (self.len() - 1) % LANES;
+        self.last_block().live.0[lane] = 1.0;
+        let face = self.last_face();
+        (face.state, face.can_break) = (LinkState::Linked, can_break);
+    }
+
+    fn last_block(&mut self) -> &mut Block {
+        self.blocks.last_mut().expect("a pair")
+    }
+
+    fn last_face(&mut self) -> &mut Face {
+        self.faces.last_mut().expect("a pair")
     }
 }
 
-type Ended = ([u32; 2], bool);
+/// A link at the start.
+#[derive(Clone, Copy)]
+struct Ended {
+    ends: [u32; 2],
+    can_break: bool,
+}
+
+/// The links of an assembly, each once, by the distance of their ends' indices, then by the first end.
+fn links(assembly: &Assembly) -> Vec<Ended> {
+    let ended = |link: &Link| {
+        let [i, j] = link.ends;
+        Ended { ends: [i.min(j), i.max(j)], can_break: link.can_break }
+    };
+    let mut links: Vec<Ended> = assembly.links.iter().map(ended).collect();
+    links.sort_unstable_by_key(|Ended { ends: [i, j], .. }| (j - i, *i));
+    links.dedup_by_key(|link| link.ends);
+    links
+}
 
 /// Blocks of links whose ends follow each other, and the links left over, each in the order of the
-/// elements. The links come sorted by the distance of their ends' indices, then by the first end.
-fn blocks(links: &[Ended]) -> (Vec<[Ended; LANES]>, Vec<Ended>) {
-    let follows = |a: &Ended, b: &Ended| b.0[0] == a.0[0] + 1 && b.0[1] == a.0[1] + 1;
+/// elements.
+fn runs(links: &[Ended]) -> (Vec<[Ended; LANES]>, Vec<Ended>) {
+    let follows = |a: &Ended, b: &Ended| b.ends == a.ends.map(|end| end + 1);
     let mut stretches: Vec<&[Ended]> = links.chunk_by(follows).collect();
-    stretches.sort_by_key(|stretch| stretch[0].0);
+    stretches.sort_by_key(|stretch| stretch[0].ends);
     let (mut runs, mut loose) = (Vec::new(), Vec::new());
     for stretch in stretches {
         let (whole, rest) = stretch.as_chunks::<LANES>();

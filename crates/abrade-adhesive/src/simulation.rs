@@ -3,18 +3,18 @@
 use abrade::ParameterError;
 
 use crate::assembly::Assembly;
+use crate::block::Line;
 use crate::elastic;
 use crate::elements::Elements;
 use crate::error::AdhesiveError;
 use crate::faces;
 use crate::flow;
-use crate::forces;
 use crate::kinematics;
 use crate::ledger::Ledger;
 use crate::motion;
 use crate::neighbours::{Neighbours, ROOM};
-use crate::pairs::{LinkState, Pair, Pairs};
-use crate::returned::{self, Due};
+use crate::pairs::{Pair, Pairs};
+use crate::settle;
 use crate::solid::{Constants, Solid};
 
 /// Most steps from one look at speeds and at the list of pairs to the next.
@@ -63,7 +63,6 @@ pub struct Simulation {
     elements: Elements,
     pairs: Pairs,
     neighbours: Neighbours,
-    due: Due,
     sums: Ledger,
 }
 
@@ -86,12 +85,11 @@ impl Simulation {
         let wave_time = diameter / solid.longitudinal_speed();
         let step = numerics.courant * wave_time;
         let mut elements = Elements::new(assembly, &constants, step);
-        let mut pairs = Pairs::new(assembly, &elements, constants.strength);
+        let mut pairs = Pairs::new(assembly, &elements);
         let mut neighbours = Neighbours::new(&elements, &pairs, diameter, assembly.period);
         neighbours.list(&elements, &mut pairs);
         faces::count_links(&mut elements, &pairs, &constants);
         let viscosity = constants.twice_shear * numerics.viscosity / numerics.courant;
-        let due = Due::with_capacity(pairs.nx.len());
         let sums = Ledger::default();
         Ok(Self {
             constants,
@@ -102,7 +100,6 @@ impl Simulation {
             elements,
             pairs,
             neighbours,
-            due,
             sums,
         })
     }
@@ -118,14 +115,14 @@ impl Simulation {
         if self.steps == self.next_look {
             self.look()?;
         }
-        let Self { constants, step, elements, pairs, due, sums, .. } = self;
+        let Self { constants, step, elements, pairs, sums, .. } = self;
         kinematics::stretch(elements, pairs, constants, *step);
         elastic::mean_stress(elements, constants);
         elastic::trial(elements, pairs, constants);
         sums.plastic += flow::flow(elements, constants);
-        returned::follow(elements, pairs, constants, due);
-        sums.released += returned::change(elements, pairs, constants, due);
-        sums.viscous += forces::act(elements, pairs, constants, self.viscosity);
+        let lost = settle::settle(elements, pairs, constants, self.viscosity);
+        sums.released += lost.released;
+        sums.viscous += lost.viscous;
         sums.drive += motion::drive_work(elements, *step);
         motion::kick(elements, *step);
         sums.drag += motion::drag(elements, constants);
@@ -207,13 +204,16 @@ impl Simulation {
     pub fn pairs(&self) -> impl Iterator<Item = Pair> {
         let pairs = &self.pairs;
         let is_there = |at: &usize| (pairs.ends.of(*at)[0] as usize) < self.elements.count;
-        (0..pairs.len()).filter(is_there).map(|at| Pair {
-            ends: pairs.ends.of(at),
-            state: pairs.state[at],
-            distance: pairs.distance[at],
-            stress: [pairs.normal[at], pairs.tangential[at]],
-            breaks: pairs.breaks[at],
-            is_original: at < pairs.original,
+        (0..pairs.len()).filter(is_there).map(|at| {
+            let (line, face) = (pairs.line(at), pairs.faces[at]);
+            Pair {
+                ends: pairs.ends.of(at),
+                state: face.state,
+                distance: line.distance,
+                stress: line.stress,
+                breaks: face.breaks,
+                is_original: at < pairs.original,
+            }
         })
     }
 
@@ -234,15 +234,15 @@ impl Simulation {
             let strained = along * along / (2.0 * self.constants.twice_shear);
             (0.5 * self.constants.coupling * square + strained) * self.constants.volume
         };
-        let faces = |at: usize| {
+        let faces = |(at, line): (usize, Line)| {
             let [i, j] = self.pairs.ends.of(at);
             let mean = e.mean_sum[i as usize] + e.mean_sum[j as usize];
-            faces::pair_energy(&self.pairs, &self.constants, at, mean)
+            faces::pair_energy(&line, &self.constants, mean)
         };
-        let linked = (0..self.pairs.len()).filter(|at| self.pairs.state[*at] == LinkState::Linked);
         Ledger {
             kinetic: (0..e.count).map(motion).sum(),
-            elastic: (0..e.count).map(pressed).sum::<f64>() + linked.map(faces).sum::<f64>(),
+            elastic: (0..e.count).map(pressed).sum::<f64>()
+                + self.pairs.linked().map(faces).sum::<f64>(),
             ..self.sums
         }
     }
