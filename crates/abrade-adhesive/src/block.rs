@@ -2,7 +2,7 @@
 //! pass goes through memory once, from front to back.
 
 use crate::elements::Elements;
-use crate::four::{Four, LANES};
+use crate::four::Four;
 
 /// Four pairs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,9 +83,9 @@ impl Block {
         [self.normal.0[lane], self.tangential.0[lane]] = line.stress;
     }
 
-    /// Whether all four are linked.
+    /// A bit for each that is not linked.
     #[inline(always)]
-    pub(crate) fn is_linked(&self) -> bool {
-        self.live.0 == [1.0; LANES]
+    pub(crate) fn unlinked(&self) -> u32 {
+        self.live.up_to(Four::ZERO)
     }
 }

@@ -67,10 +67,9 @@ impl BlockPass for Trial<'_> {
     #[inline(always)]
     fn block<E: Ends>(&mut self, _: usize, block: &mut Block, ends: E) {
         let stiff = block.live * self.twice_shear;
-        let [mean_i, mean_j] = ends.get(self.mean_step);
         let normal = block.normal
             + stiff * block.stretch
-            + block.live * self.half_coupling * (mean_i + mean_j);
+            + block.live * self.half_coupling * ends.sum(self.mean_step);
         let tangential = block.tangential + stiff * block.shear;
         (block.normal, block.tangential) = (normal, tangential);
         let (nx, ny) = (block.nx, block.ny);

@@ -46,14 +46,13 @@ impl BlockPass for Stretch<'_> {
     #[inline(always)]
     fn block<E: Ends>(&mut self, _: usize, block: &mut Block, ends: E) {
         let ([xi, xj], [yi, yj]) = (ends.get(self.x), ends.get(self.y));
-        let [spin_i, spin_j] = ends.get(self.spin);
         let (dx, dy) = (xj - xi + block.image, yj - yi);
         let distance = (dx * dx + dy * dy).sqrt();
         let inverse = Four::splat(1.0) / distance;
         let (nx, ny) = (dx * inverse, dy * inverse);
         let strain = (distance - block.distance) * self.per_diameter;
         let turn = block.nx * ny - block.ny * nx;
-        let shear = turn - (spin_i + spin_j) * self.half_step;
+        let shear = turn - ends.sum(self.spin) * self.half_step;
         let linked = strain * block.live;
         *block = Block { nx, ny, distance, stretch: strain, shear, ..*block };
         ends.add(&mut self.strain, [linked, linked]);

@@ -25,11 +25,11 @@ pub(crate) trait Ends: Copy {
     /// Values of a column at the first and the second ends.
     fn get(self, column: &[f64]) -> [Four; 2];
 
-    /// The mean of the values at both ends.
+    /// The sum of the values at both ends.
     #[inline(always)]
-    fn mean(self, column: &[f64]) -> Four {
+    fn sum(self, column: &[f64]) -> Four {
         let [i, j] = self.get(column);
-        Four::splat(0.5) * (i + j)
+        i + j
     }
 
     /// Adds to the sum of the first ends, and of the second.

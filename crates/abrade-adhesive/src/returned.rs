@@ -16,10 +16,8 @@ impl Return<'_> {
     #[inline(always)]
     pub(crate) fn follow(&self, block: &Block, ends: impl Ends) -> [Four; 2] {
         let (half, one) = (Four::splat(0.5), Four::splat(1.0));
-        let [kept_i, kept_j] = ends.get(self.kept);
-        let [shifted_i, shifted_j] = ends.get(self.shifted);
-        let lost = block.live * (one - half * (kept_i + kept_j));
-        let shifted = block.live * half * (shifted_i + shifted_j);
+        let lost = block.live * (one - half * ends.sum(self.kept));
+        let shifted = block.live * half * ends.sum(self.shifted);
         let (normal, tangential) = (block.normal, block.tangential);
         [normal - lost * normal + shifted, tangential - lost * tangential]
     }
@@ -40,11 +38,11 @@ impl Criterion<'_> {
     /// each pair that fails if it is a link that can break.
     #[inline(always)]
     pub(crate) fn fails(&self, block: &Block, ends: impl Ends, stress: [Four; 2]) -> u32 {
-        let half = Four::splat(0.5);
-        let (sxx, syy, sxy, szz) =
-            (ends.mean(self.sxx), ends.mean(self.syy), ends.mean(self.sxy), ends.mean(self.szz));
         let ([normal, tangential], nx, ny) = (stress, block.nx, block.ny);
-        let along = sxx * (ny * ny) + syy * (nx * nx) - (sxy * (nx * ny)) * Four::splat(2.0);
+        let half = Four::splat(0.5);
+        let (sxx, syy, sxy) = (ends.sum(self.sxx), ends.sum(self.syy), ends.sum(self.sxy));
+        let along = half * (sxx * (ny * ny) + syy * (nx * nx)) - sxy * (nx * ny);
+        let szz = half * ends.sum(self.szz);
         let mean = (normal + along + szz) * Four::splat(1.0 / 3.0);
         let (a, b, c) = (normal - along, along - szz, szz - normal);
         let across = tangential * tangential;

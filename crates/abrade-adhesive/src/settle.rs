@@ -81,7 +81,7 @@ impl BlockPass for Settle<'_, '_> {
         let mut stress = self.returned.follow(block, ends);
         [block.normal, block.tangential] = stress;
         let fails = self.criterion.fails(block, ends, stress);
-        if fails != 0 || !block.is_linked() {
+        if fails | block.unlinked() != 0 {
             self.changes.change(at, block, ends, fails);
             stress = [block.normal, block.tangential];
         }
