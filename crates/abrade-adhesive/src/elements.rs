@@ -21,13 +21,14 @@ pub(crate) struct Elements {
     pub(crate) mobility_x: Vec<f64>,
     pub(crate) mobility_y: Vec<f64>,
     pub(crate) mobility_spin: Vec<f64>,
-    /// Share of the velocity over that of the start that a step's drag takes [-], and that velocity.
-    pub(crate) drag: Vec<f64>,
+    /// Share of the velocity over that of the start that a step's drag takes along x and y [-], and that
+    /// velocity.
+    pub(crate) drag: [Vec<f64>; 2],
     pub(crate) led_x: Vec<f64>,
     pub(crate) led_y: Vec<f64>,
     /// Elements with a held motion.
     pub(crate) held: Vec<(u32, Hold)>,
-    /// Elements with a drag.
+    /// First elements of the blocks with a drag.
     pub(crate) dragged: Vec<u32>,
     /// Number of linked faces, and the response that goes with it [Pa].
     pub(crate) linked: Vec<u8>,
@@ -50,6 +51,8 @@ pub(crate) struct Elements {
     pub(crate) mean: Vec<f64>,
     pub(crate) kept: Vec<f64>,
     pub(crate) shifted: Vec<f64>,
+    /// Square of the greater of equivalent and mean stress [Pa2]; infinite where a block flows.
+    pub(crate) level: Vec<f64>,
     /// Sums over pairs: strain of faces; stress times 3; force [N] and torque [N m].
     pub(crate) strain: Sum,
     pub(crate) face_xx: Sum,
@@ -78,7 +81,7 @@ impl Elements {
             mobility_x: zeros(),
             mobility_y: zeros(),
             mobility_spin: zeros(),
-            drag: zeros(),
+            drag: [zeros(), zeros()],
             led_x: zeros(),
             led_y: zeros(),
             held: Vec::new(),
@@ -96,6 +99,7 @@ impl Elements {
             mean: zeros(),
             kept: vec![1.0; padded],
             shifted: zeros(),
+            level: zeros(),
             strain: sum(),
             face_xx: sum(),
             face_yy: sum(),
@@ -118,12 +122,15 @@ impl Elements {
             self.mobility_x[at] = free(hold.x, constants.mass);
             self.mobility_y[at] = free(hold.y, constants.mass);
             self.mobility_spin[at] = free(hold.spin, constants.inertia);
-            self.drag[at] = (element.drag * step).clamp(0.0, 1.0);
+            let drag = (element.drag * step).clamp(0.0, 1.0);
+            self.drag[0][at] = if hold.x { 0.0 } else { drag };
+            self.drag[1][at] = if hold.y { 0.0 } else { drag };
             if hold.x || hold.y {
                 self.held.push((at as u32, hold));
             }
-            if self.drag[at] > 0.0 {
-                self.dragged.push(at as u32);
+            let block = (at - at % LANES) as u32;
+            if drag > 0.0 && self.dragged.last() != Some(&block) {
+                self.dragged.push(block);
             }
         }
         for ghost in self.count..self.x.len() {

@@ -58,19 +58,23 @@ pub(crate) fn drive_work(elements: &Elements, step: f64) -> f64 {
 }
 
 /// Takes their share off the velocities over those of the start; returns the energy that goes [J].
+#[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn drag(elements: &mut Elements, constants: &Constants) -> f64 {
-    let mut lost = 0.0;
+    let count = elements.x.len();
+    let (vx, vy) = (&mut elements.vx[..count], &mut elements.vy[..count]);
+    let (led_x, led_y) = (&elements.led_x[..count], &elements.led_y[..count]);
+    let [drag_x, drag_y] = elements.drag.each_ref().map(|drag| &drag[..count]);
+    let mut lost = Four::ZERO;
     for at in &elements.dragged {
         let at = *at as usize;
-        let share = elements.drag[at];
-        let (vx, vy) = (elements.vx[at], elements.vy[at]);
-        let free = |mobility: f64| if mobility > 0.0 { share } else { 0.0 };
-        elements.vx[at] -= free(elements.mobility_x[at]) * (vx - elements.led_x[at]);
-        elements.vy[at] -= free(elements.mobility_y[at]) * (vy - elements.led_y[at]);
-        let (wx, wy) = (elements.vx[at], elements.vy[at]);
-        lost += vx * vx + vy * vy - wx * wx - wy * wy;
+        let (old_x, old_y) = (load(vx, at), load(vy, at));
+        let new_x = old_x - load(drag_x, at) * (old_x - load(led_x, at));
+        let new_y = old_y - load(drag_y, at) * (old_y - load(led_y, at));
+        store(vx, at, new_x);
+        store(vy, at, new_y);
+        lost += old_x * old_x + old_y * old_y - new_x * new_x - new_y * new_y;
     }
-    0.5 * constants.mass * lost
+    0.5 * constants.mass * lost.sum()
 }
 
 /// Square of the highest speed [m2/s2] and whose it is; one that is not a number counts as the highest.

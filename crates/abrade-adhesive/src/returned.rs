@@ -29,10 +29,20 @@ pub(crate) struct Criterion<'a> {
     pub(crate) syy: &'a [f64],
     pub(crate) sxy: &'a [f64],
     pub(crate) szz: &'a [f64],
+    pub(crate) level: &'a [f64],
     pub(crate) constants: &'a Constants,
 }
 
 impl Criterion<'_> {
+    /// Whether no pair of a block can fail and none of its ends flows, under these stresses.
+    #[inline(always)]
+    pub(crate) fn is_calm(&self, ends: impl Ends, [normal, tangential]: [Four; 2]) -> bool {
+        let [level_i, level_j] = ends.get(self.level);
+        let own = (normal * normal).max(tangential * tangential);
+        let highest = level_i.max(level_j).max(own);
+        !highest.any_above(Four::splat(self.constants.calm * self.constants.calm))
+    }
+
     /// Drucker and Prager's criterion (the paper's Eq. 11) on the stress at the face: normal and tangential
     /// stress of the pair, the others as the mean of its ends. Squared, so that no root is drawn. A bit for
     /// each pair that fails if it is a link that can break.

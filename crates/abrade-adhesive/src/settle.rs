@@ -49,6 +49,7 @@ pub(crate) fn settle(
             syy: &elements.syy[..count],
             sxy: &elements.sxy[..count],
             szz: &elements.szz[..count],
+            level: &elements.level[..count],
             constants,
         },
         changes: &mut changes,
@@ -78,9 +79,12 @@ struct Settle<'a, 'b> {
 impl BlockPass for Settle<'_, '_> {
     #[inline(always)]
     fn block<E: Ends>(&mut self, at: usize, block: &mut Block, ends: E) {
-        let mut stress = self.returned.follow(block, ends);
-        [block.normal, block.tangential] = stress;
-        let fails = self.criterion.fails(block, ends, stress);
+        let (mut stress, mut fails) = ([block.normal, block.tangential], 0);
+        if !self.criterion.is_calm(ends, stress) {
+            stress = self.returned.follow(block, ends);
+            [block.normal, block.tangential] = stress;
+            fails = self.criterion.fails(block, ends, stress);
+        }
         if fails | block.unlinked() != 0 {
             self.changes.change(at, block, ends, fails);
             stress = [block.normal, block.tangential];

@@ -167,6 +167,12 @@ pub(crate) struct Constants {
     pub(crate) strength: f64,
     pub(crate) strength_shear: f64,
     pub(crate) strength_mean: f64,
+    /// Stress that no link fails under [Pa], where neither its own stresses nor the equivalent and mean stress
+    /// of its ends exceed it.
+    ///
+    /// With that stress T: the stresses along the face and along z are up to T + 2 T / 3, their difference up
+    /// to 2 T / sqrt(3). The equivalent stress of the face then is below 3.3 T and its mean below 1.5 T.
+    pub(crate) calm: f64,
     /// sigma_0 [Pa] and delta [m].
     pub(crate) adhesion: f64,
     pub(crate) adhesion_range: f64,
@@ -184,6 +190,9 @@ impl Constants {
         let mass = solid.density * volume;
         let response =
             |linked: usize| (2.0 * shear / 3.0) / (3.0 - coupling - linked as f64 * coupling / 3.0);
+        let strength = solid.compressive_strength();
+        let strength_shear = (solid.strength_ratio + 1.0) / 2.0;
+        let strength_mean = 1.5 * (solid.strength_ratio - 1.0);
         Self {
             diameter,
             face: diameter / 3f64.sqrt(),
@@ -195,9 +204,10 @@ impl Constants {
             response: std::array::from_fn(response),
             yield_stress: solid.yield_stress,
             plastic_modulus: solid.plastic_modulus(),
-            strength: solid.compressive_strength(),
-            strength_shear: (solid.strength_ratio + 1.0) / 2.0,
-            strength_mean: 1.5 * (solid.strength_ratio - 1.0),
+            strength,
+            strength_shear,
+            strength_mean,
+            calm: strength / (3.4 * strength_shear + 1.5 * strength_mean),
             adhesion: solid.adhesion,
             adhesion_range: solid.adhesion_range,
         }
