@@ -210,8 +210,8 @@ impl Asperities {
         let positions: Vec<[f64; 2]> = assembly.elements.iter().map(|e| e.position).collect();
         let grid = crate::grid::Grid::new(&positions, assembly.period, 0.95 * self.diameter);
         let mut overlap = false;
-        for i in 0..positions.len() {
-            grid.each_later(&positions, i, |j| overlap |= parts[i].is_upper != parts[j].is_upper);
+        for (i, position) in positions.iter().enumerate() {
+            grid.each_later(i, *position, |j| overlap |= parts[i].is_upper != parts[j].is_upper);
         }
         overlap
     }

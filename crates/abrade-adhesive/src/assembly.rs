@@ -62,8 +62,8 @@ impl Assembly {
     pub fn link_within(&mut self, reach: f64, is_one_body: impl Fn(usize, usize) -> bool) {
         let positions: Vec<[f64; 2]> = self.elements.iter().map(|e| e.position).collect();
         let grid = Grid::new(&positions, self.period, reach * self.diameter);
-        for i in 0..positions.len() {
-            grid.each_later(&positions, i, |j| {
+        for (i, position) in positions.iter().enumerate() {
+            grid.each_later(i, *position, |j| {
                 if is_one_body(i, j) {
                     self.links.push(Link { ends: [i as u32, j as u32], can_break: true });
                 }

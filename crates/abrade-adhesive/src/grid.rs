@@ -1,5 +1,7 @@
 //! Cells over points, to find what is near a point.
 
+use std::ops::Range;
+
 /// Cells over points, each with the points in it in their order.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Grid {
@@ -11,6 +13,8 @@ pub(crate) struct Grid {
     /// Where the points of each cell begin in `members`.
     starts: Vec<usize>,
     members: Vec<u32>,
+    /// Where the members are [m].
+    places: Vec<[f64; 2]>,
     /// Room for sorting: the cell of each point, the next place in each cell.
     cell_of_point: Vec<usize>,
     next: Vec<usize>,
@@ -27,6 +31,7 @@ impl Grid {
             reach,
             starts: Vec::new(),
             members: Vec::new(),
+            places: Vec::new(),
             cell_of_point: Vec::new(),
             next: Vec::new(),
         };
@@ -73,9 +78,12 @@ impl Grid {
         }
         self.next.clone_from(&self.starts);
         self.members.resize(points.len(), 0);
+        self.places.resize(points.len(), [0.0; 2]);
         for (point, cell) in self.cell_of_point.iter().enumerate() {
-            self.members[self.next[*cell]] = point as u32;
-            self.next[*cell] += 1;
+            let next = &mut self.next[*cell];
+            self.members[*next] = point as u32;
+            self.places[*next] = points[point];
+            *next += 1;
         }
     }
 
@@ -95,18 +103,17 @@ impl Grid {
         row * self.cells[0] + column
     }
 
-    /// Calls `found` with every point after point `i` that is nearer to it than the reach.
-    pub(crate) fn each_later(&self, points: &[[f64; 2]], i: usize, mut found: impl FnMut(usize)) {
+    /// Calls `found` with every point after point `i`, which is `point`, that is nearer to it than the reach.
+    pub(crate) fn each_later(&self, i: usize, point: [f64; 2], mut found: impl FnMut(usize)) {
         let at = self.cell_of_point[i];
         let [column, row] = [at % self.cells[0], at / self.cells[0]];
-        let columns = self.around(column);
         for row in row.saturating_sub(1)..=(row + 1).min(self.cells[1] - 1) {
-            for column in columns.into_iter().flatten() {
-                let cell = self.index([column, row]);
-                for j in &self.members[self.starts[cell]..self.starts[cell + 1]] {
-                    let j = *j as usize;
-                    if j > i && self.square(points[i], points[j]) < self.reach * self.reach {
-                        found(j);
+            for columns in self.around(column) {
+                let cells = self.index([columns.start, row])..self.index([columns.end, row]);
+                let members = self.starts[cells.start]..self.starts[cells.end];
+                for (j, other) in self.members[members.clone()].iter().zip(&self.places[members]) {
+                    if *j as usize > i && self.square(point, *other) < self.reach * self.reach {
+                        found(*j as usize);
                     }
                 }
             }
@@ -124,14 +131,17 @@ impl Grid {
         dx * dx + dy * dy
     }
 
-    /// The columns beside `column` and itself, each once.
-    fn around(&self, column: usize) -> [Option<usize>; 3] {
+    /// The columns beside `column` and itself, each once: those in a line with it, and one beyond the
+    /// period's end.
+    fn around(&self, column: usize) -> [Range<usize>; 2] {
         let count = self.cells[0];
-        let beside = match self.period {
-            Some(_) => [Some((column + count - 1) % count), Some((column + 1) % count)],
-            None => [column.checked_sub(1), Some(column + 1).filter(|next| *next < count)],
+        let beside = column.saturating_sub(1)..(column + 2).min(count);
+        let beyond = match column {
+            _ if self.period.is_none() || beside.len() == count => 0..0,
+            0 => count - 1..count,
+            _ if column + 1 == count => 0..1,
+            _ => 0..0,
         };
-        let [left, right] = beside.map(|other| other.filter(|other| *other != column));
-        [left.filter(|left| Some(*left) != right), Some(column), right]
+        [beside, beyond]
     }
 }

@@ -106,7 +106,7 @@ impl Neighbours {
         let partners = &self.partners[self.starts[i]..self.starts[i + 1]];
         let near = &mut self.near;
         near.clear();
-        self.grid.each_later(&self.positions, i, |j| {
+        self.grid.each_later(i, self.positions[i], |j| {
             if !partners.contains(&(j as u32)) {
                 near.push(j as u32);
             }
