@@ -2,6 +2,7 @@
 //! pairs and elements fill whole blocks.
 
 use crate::assembly::{Assembly, Hold};
+use crate::column::Column;
 use crate::four::LANES;
 use crate::lanes::Sum;
 use crate::solid::Constants;
@@ -12,47 +13,47 @@ pub(crate) struct Elements {
     /// Number of elements without ghosts.
     pub(crate) count: usize,
     /// Position [m], velocity [m/s], spin [rad/s].
-    pub(crate) x: Vec<f64>,
-    pub(crate) y: Vec<f64>,
-    pub(crate) vx: Vec<f64>,
-    pub(crate) vy: Vec<f64>,
-    pub(crate) spin: Vec<f64>,
+    pub(crate) x: Column,
+    pub(crate) y: Column,
+    pub(crate) vx: Column,
+    pub(crate) vy: Column,
+    pub(crate) spin: Column,
     /// One over the mass [1/kg] and inertia [1/(kg m2)]; zero where the motion is held.
-    pub(crate) mobility_x: Vec<f64>,
-    pub(crate) mobility_y: Vec<f64>,
-    pub(crate) mobility_spin: Vec<f64>,
+    pub(crate) mobility_x: Column,
+    pub(crate) mobility_y: Column,
+    pub(crate) mobility_spin: Column,
     /// Share of the velocity over that of the start that a step's drag takes along x and y [-], and that
     /// velocity.
-    pub(crate) drag: [Vec<f64>; 2],
-    pub(crate) led_x: Vec<f64>,
-    pub(crate) led_y: Vec<f64>,
+    pub(crate) drag: [Column; 2],
+    pub(crate) led_x: Column,
+    pub(crate) led_y: Column,
     /// Elements with a held motion.
     pub(crate) held: Vec<(u32, Hold)>,
     /// First elements of the blocks with a drag.
     pub(crate) dragged: Vec<u32>,
     /// Number of linked faces, and the response that goes with it [Pa].
     pub(crate) linked: Vec<u8>,
-    pub(crate) response: Vec<f64>,
+    pub(crate) response: Column,
     /// Equivalent plastic strain [-].
-    pub(crate) plastic_strain: Vec<f64>,
+    pub(crate) plastic_strain: Column,
     /// Strain of faces whose traction changed at fixed centres, for the next mean stress [-].
-    pub(crate) released: Vec<f64>,
+    pub(crate) released: Column,
     /// Increment of the mean stress in this step [Pa].
-    pub(crate) mean_step: Vec<f64>,
+    pub(crate) mean_step: Column,
     /// Sum of those increments [Pa]: what the energies go by. The mean of the stress tensor has a share of
     /// the neighbours in it.
-    pub(crate) mean_sum: Vec<f64>,
+    pub(crate) mean_sum: Column,
     /// Stress [Pa].
-    pub(crate) sxx: Vec<f64>,
-    pub(crate) syy: Vec<f64>,
-    pub(crate) sxy: Vec<f64>,
-    pub(crate) szz: Vec<f64>,
+    pub(crate) sxx: Column,
+    pub(crate) syy: Column,
+    pub(crate) sxy: Column,
+    pub(crate) szz: Column,
     /// Mean stress [Pa], factor M of the return [-], (1 - M) times the mean stress [Pa].
-    pub(crate) mean: Vec<f64>,
-    pub(crate) kept: Vec<f64>,
-    pub(crate) shifted: Vec<f64>,
+    pub(crate) mean: Column,
+    pub(crate) kept: Column,
+    pub(crate) shifted: Column,
     /// Square of the greater of equivalent and mean stress [Pa2]; infinite where a block flows.
-    pub(crate) level: Vec<f64>,
+    pub(crate) level: Column,
     /// Sums over pairs: strain of faces; stress times 3; force [N] and torque [N m].
     pub(crate) strain: Sum,
     pub(crate) face_xx: Sum,
@@ -69,7 +70,7 @@ impl Elements {
         let count = assembly.elements.len();
         // Two ghosts at least: the ends of a pair lie apart.
         let padded = (count + 2).next_multiple_of(LANES);
-        let zeros = || vec![0.0; padded];
+        let zeros = || Column::new(0.0, padded);
         let sum = || [zeros(), zeros()];
         let mut elements = Self {
             count,
@@ -87,7 +88,7 @@ impl Elements {
             held: Vec::new(),
             dragged: Vec::new(),
             linked: vec![0; padded],
-            response: vec![constants.response_of(0); padded],
+            response: Column::new(constants.response_of(0), padded),
             plastic_strain: zeros(),
             released: zeros(),
             mean_step: zeros(),
@@ -97,7 +98,7 @@ impl Elements {
             sxy: zeros(),
             szz: zeros(),
             mean: zeros(),
-            kept: vec![1.0; padded],
+            kept: Column::new(1.0, padded),
             shifted: zeros(),
             level: zeros(),
             strain: sum(),

@@ -5,10 +5,11 @@
 //! would wait.
 
 use crate::block::Block;
+use crate::column::Column;
 use crate::four::{Four, LANES};
 
 /// A sum over pairs: of those that an element begins, and of those that it ends.
-pub(crate) type Sum = [Vec<f64>; 2];
+pub(crate) type Sum = [Column; 2];
 
 /// A sum as a pass holds it.
 pub(crate) type Sides<'a> = [&'a mut [f64]; 2];

@@ -15,6 +15,7 @@ mod assembly;
 mod block;
 mod classify;
 mod collision;
+mod column;
 mod components;
 mod elastic;
 mod elements;

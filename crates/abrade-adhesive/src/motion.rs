@@ -12,7 +12,7 @@ use crate::solid::Constants;
 pub(crate) fn kick(elements: &mut Elements, step: f64) {
     let count = elements.x.len();
     let half = Four::splat(0.5 * step);
-    let kick = |column: &mut Vec<f64>, sum: &Sum, mobility: &Vec<f64>| {
+    let kick = |column: &mut [f64], sum: &Sum, mobility: &[f64]| {
         let (column, mobility) = (&mut column[..count], &mobility[..count]);
         let (begun, ended) = (&sum[0][..count], &sum[1][..count]);
         for at in (0..count).step_by(LANES) {
@@ -31,7 +31,7 @@ pub(crate) fn kick(elements: &mut Elements, step: f64) {
 pub(crate) fn drift(elements: &mut Elements, step: f64) {
     let count = elements.x.len();
     let along = Four::splat(step);
-    let drift = |column: &mut Vec<f64>, speed: &Vec<f64>| {
+    let drift = |column: &mut [f64], speed: &[f64]| {
         let (column, speed) = (&mut column[..count], &speed[..count]);
         for at in (0..count).step_by(LANES) {
             let moved = load(column, at) + along * load(speed, at);
@@ -49,8 +49,7 @@ pub(crate) fn drift(elements: &mut Elements, step: f64) {
 pub(crate) fn drive_work(elements: &Elements, step: f64) -> f64 {
     let power = |(at, hold): &(u32, crate::assembly::Hold)| {
         let at = *at as usize;
-        let force =
-            |sum: &[Vec<f64>; 2], held: bool| if held { sum[0][at] + sum[1][at] } else { 0.0 };
+        let force = |sum: &Sum, held: bool| if held { sum[0][at] + sum[1][at] } else { 0.0 };
         let along = force(&elements.force_x, hold.x) * elements.vx[at];
         along + force(&elements.force_y, hold.y) * elements.vy[at]
     };

@@ -10,6 +10,7 @@ use crate::error::AdhesiveError;
 use crate::faces;
 use crate::flow;
 use crate::kinematics;
+use crate::lanes::Sum;
 use crate::ledger::Ledger;
 use crate::motion;
 use crate::neighbours::{Neighbours, ROOM};
@@ -191,7 +192,7 @@ impl Simulation {
 
     /// Force of its pairs on an element [N], per metre of thickness.
     pub fn force(&self, element: usize) -> [f64; 2] {
-        let total = |sum: &[Vec<f64>; 2]| sum[0][element] + sum[1][element];
+        let total = |sum: &Sum| sum[0][element] + sum[1][element];
         [total(&self.elements.force_x), total(&self.elements.force_y)]
     }
 
