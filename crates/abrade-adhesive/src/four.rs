@@ -8,8 +8,9 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 /// Numbers in a block.
 pub(crate) const LANES: usize = 4;
 
-/// Four numbers.
+/// Four numbers, which do not lie across two lines of the cache.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(32))]
 pub(crate) struct Four(pub(crate) [f64; LANES]);
 
 impl Four {
