@@ -4,7 +4,7 @@ use multiversion::multiversion;
 
 use crate::elements::Elements;
 use crate::four::{Four, LANES};
-use crate::lanes::{Sides, load, sides, store};
+use crate::lanes::{Sides, load, sides, store, take};
 use crate::solid::Constants;
 
 /// Brings the stress of each element back to its yield surface; returns the plastic work [J].
@@ -106,13 +106,4 @@ impl Flow<'_> {
         store(self.shifted, at, shifted);
         store(self.level, at, level);
     }
-}
-
-/// The sum over both sides, which begins anew.
-#[inline(always)]
-fn take(sum: &mut Sides, at: usize) -> Four {
-    let total = load(sum[0], at) + load(sum[1], at);
-    store(sum[0], at, Four::ZERO);
-    store(sum[1], at, Four::ZERO);
-    total
 }

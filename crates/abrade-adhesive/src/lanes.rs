@@ -106,6 +106,15 @@ pub(crate) fn store(column: &mut [f64], at: usize, values: Four) {
     column[at..at + LANES].copy_from_slice(&values.0);
 }
 
+/// The sum over both sides of four elements, which begins anew.
+#[inline(always)]
+pub(crate) fn take(sum: &mut Sides, at: usize) -> Four {
+    let total = load(sum[0], at) + load(sum[1], at);
+    store(sum[0], at, Four::ZERO);
+    store(sum[1], at, Four::ZERO);
+    total
+}
+
 /// Something done to each block of four pairs.
 pub(crate) trait BlockPass {
     /// Does it to block `at`.

@@ -4,45 +4,51 @@ use multiversion::multiversion;
 
 use crate::elements::Elements;
 use crate::four::{Four, LANES};
-use crate::lanes::{Sum, load, store};
+use crate::lanes::{Sum, load, sides, store, take};
 use crate::solid::Constants;
 
-/// Half a step of the velocities.
+/// The first half of a step: velocities of its middle, and positions of its end. Sums of forces begin anew.
 #[multiversion(targets("x86_64+avx2"))]
-pub(crate) fn kick(elements: &mut Elements, step: f64) {
+pub(crate) fn begin(elements: &mut Elements, step: f64) {
+    let count = elements.x.len();
+    let (half, whole) = (Four::splat(0.5 * step), Four::splat(step));
+    let drift = |place: &mut [f64], speed: &mut [f64], sum: &mut Sum, mobility: &[f64]| {
+        let (place, mut sum) = (&mut place[..count], sides(sum, count));
+        let (speed, mobility) = (&mut speed[..count], &mobility[..count]);
+        for at in (0..count).step_by(LANES) {
+            let new = load(speed, at) + half * (take(&mut sum, at) * load(mobility, at));
+            let moved = load(place, at) + whole * new;
+            store(speed, at, new);
+            store(place, at, moved);
+        }
+    };
+    drift(&mut elements.x, &mut elements.vx, &mut elements.force_x, &elements.mobility_x);
+    drift(&mut elements.y, &mut elements.vy, &mut elements.force_y, &elements.mobility_y);
+    let (spin, mobility) = (&mut elements.spin[..count], &elements.mobility_spin[..count]);
+    let mut torque = sides(&mut elements.torque, count);
+    for at in (0..count).step_by(LANES) {
+        let new = load(spin, at) + half * (take(&mut torque, at) * load(mobility, at));
+        store(spin, at, new);
+    }
+}
+
+/// The second half of a step: velocities of its end.
+#[multiversion(targets("x86_64+avx2"))]
+pub(crate) fn end(elements: &mut Elements, step: f64) {
     let count = elements.x.len();
     let half = Four::splat(0.5 * step);
-    let kick = |column: &mut [f64], sum: &Sum, mobility: &[f64]| {
-        let (column, mobility) = (&mut column[..count], &mobility[..count]);
+    let kick = |speed: &mut [f64], sum: &Sum, mobility: &[f64]| {
+        let (speed, mobility) = (&mut speed[..count], &mobility[..count]);
         let (begun, ended) = (&sum[0][..count], &sum[1][..count]);
         for at in (0..count).step_by(LANES) {
             let force = load(begun, at) + load(ended, at);
-            let kicked = load(column, at) + half * (force * load(mobility, at));
-            store(column, at, kicked);
+            let new = load(speed, at) + half * (force * load(mobility, at));
+            store(speed, at, new);
         }
     };
     kick(&mut elements.vx, &elements.force_x, &elements.mobility_x);
     kick(&mut elements.vy, &elements.force_y, &elements.mobility_y);
     kick(&mut elements.spin, &elements.torque, &elements.mobility_spin);
-}
-
-/// A step of the positions. The sums of forces begin anew.
-#[multiversion(targets("x86_64+avx2"))]
-pub(crate) fn drift(elements: &mut Elements, step: f64) {
-    let count = elements.x.len();
-    let along = Four::splat(step);
-    let drift = |column: &mut [f64], speed: &[f64]| {
-        let (column, speed) = (&mut column[..count], &speed[..count]);
-        for at in (0..count).step_by(LANES) {
-            let moved = load(column, at) + along * load(speed, at);
-            store(column, at, moved);
-        }
-    };
-    drift(&mut elements.x, &elements.vx);
-    drift(&mut elements.y, &elements.vy);
-    for sum in [&mut elements.force_x, &mut elements.force_y, &mut elements.torque] {
-        sum.iter_mut().for_each(|side| side.fill(0.0));
-    }
 }
 
 /// Work that the drives do in half a step, against the forces of now [J].

@@ -111,8 +111,7 @@ impl Simulation {
     /// An element moved further than a step resolves, or what moves it is no longer a number.
     pub fn step(&mut self) -> Result<(), AdhesiveError> {
         self.sums.drive += motion::drive_work(&self.elements, self.step);
-        motion::kick(&mut self.elements, self.step);
-        motion::drift(&mut self.elements, self.step);
+        motion::begin(&mut self.elements, self.step);
         if self.steps == self.next_look {
             self.look()?;
         }
@@ -125,7 +124,7 @@ impl Simulation {
         sums.released += lost.released;
         sums.viscous += lost.viscous;
         sums.drive += motion::drive_work(elements, *step);
-        motion::kick(elements, *step);
+        motion::end(elements, *step);
         sums.drag += motion::drag(elements, constants);
         self.steps += 1;
         Ok(())
