@@ -85,8 +85,9 @@ impl BlockPass for Settle<'_, '_> {
             [block.normal, block.tangential] = stress;
             fails = self.criterion.fails(block, ends, stress);
         }
-        if fails | block.unlinked() != 0 {
-            self.changes.change(at, block, ends, fails);
+        let due = fails | block.unlinked();
+        if due != 0 {
+            self.changes.change(at, block, ends, [due, fails]);
             stress = [block.normal, block.tangential];
         }
         self.square += self.forces.act(block, ends, stress);
@@ -101,10 +102,11 @@ struct Changes<'a> {
 }
 
 impl Changes<'_> {
-    /// Changes those pairs of a block that are due. `fails` has a bit for each that fails if it is a link.
+    /// Changes pairs of a block: there is a bit for each that is `due`, and for each that fails if it is a
+    /// link.
     #[inline(never)]
-    fn change<E: Ends>(&mut self, at: usize, block: &mut Block, ends: E, fails: u32) {
-        for lane in 0..LANES {
+    fn change<E: Ends>(&mut self, at: usize, block: &mut Block, ends: E, [due, fails]: [u32; 2]) {
+        for lane in (0..LANES).filter(|lane| due & (1 << lane) != 0) {
             let mut line = block.line(lane);
             let face = &mut self.pairs[at * LANES + lane];
             let pair = Change { ends: ends.of(lane), line: &mut line, face };

@@ -23,6 +23,8 @@ const LOOK: f64 = 20.0;
 /// The furthest that an element may come between two looks at twice its speed, in diameters: what is not
 /// yet listed stays out of reach.
 const STRIDE: f64 = 0.5 * ROOM;
+/// Share of the most steps to the next look that is too few: a list gives the most again.
+const SHORT: f64 = 0.25;
 
 /// How finely time is cut, and how much the links dampen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -140,11 +142,14 @@ impl Simulation {
             let allowed = room / (2.0 * self.step);
             return Err(AdhesiveError::TooFast { time: self.time(), element, speed, allowed });
         }
-        let steps = (room / stride).floor().clamp(1.0, LOOK);
-        self.next_look = self.steps + steps as u64;
-        if self.neighbours.moved(&self.elements) + steps * stride > room {
+        let most = (room / stride).floor().clamp(1.0, LOOK);
+        let left = (room - self.neighbours.moved(&self.elements)) / stride;
+        let mut steps = left.floor().min(most);
+        if steps < SHORT * most {
             self.neighbours.list(&self.elements, &mut self.pairs);
+            steps = most;
         }
+        self.next_look = self.steps + steps as u64;
         Ok(())
     }
 
