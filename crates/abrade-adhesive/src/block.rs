@@ -1,5 +1,5 @@
-//! What every step takes of pairs, by fours: each number of four pairs stands beside the others', so that a
-//! pass goes through memory once, from front to back.
+//! What every step takes of pairs, by fours: each number of four pairs stands beside the others',
+//! so that a pass goes through memory once, from front to back.
 
 use crate::elements::Elements;
 use crate::four::Four;

@@ -1,4 +1,5 @@
-//! A column of numbers that begins with a line of the cache: blocks of four then do not lie across two.
+//! A column of numbers that begins with a line of the cache: blocks of four then do not lie across
+//! two.
 
 use std::ops::{Deref, DerefMut};
 

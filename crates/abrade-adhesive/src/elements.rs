@@ -22,8 +22,8 @@ pub(crate) struct Elements {
     pub(crate) mobility_x: Column,
     pub(crate) mobility_y: Column,
     pub(crate) mobility_spin: Column,
-    /// Share of the velocity over that of the start that a step's drag takes along x and y [-], and that
-    /// velocity.
+    /// Share of the velocity over that of the start that a step's drag takes along x and y [-], and
+    /// that velocity.
     pub(crate) drag: [Column; 2],
     pub(crate) led_x: Column,
     pub(crate) led_y: Column,

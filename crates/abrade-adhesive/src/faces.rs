@@ -82,8 +82,8 @@ impl Faces<'_> {
         }
     }
 
-    /// Open faces that come within the range are drawn together: into touch, where adhesion is stronger
-    /// than the faces are stiff over its range.
+    /// Open faces that come within the range are drawn together: into touch, where adhesion is
+    /// stronger than the faces are stiff over its range.
     fn meet(&mut self, pair: &mut Change, mean: f64) {
         let adhesion = self.constants.adhesion;
         let stress = self.touching_stress(pair, mean);
@@ -118,8 +118,8 @@ impl Faces<'_> {
         constants.twice_shear * strain + 0.5 * constants.coupling * mean
     }
 
-    /// Faces give by the strain s / (2 G) when the traction `drop` [Pa] leaves them at fixed centres; the
-    /// next mean stress takes it in.
+    /// Faces give by the strain s / (2 G) when the traction `drop` [Pa] leaves them at fixed
+    /// centres; the next mean stress takes it in.
     fn release(&mut self, ends: [u32; 2], drop: f64) {
         for end in ends {
             self.released[end as usize] -= drop / self.constants.twice_shear;
@@ -145,8 +145,8 @@ pub(crate) fn pair_energy(line: &Line, constants: &Constants, mean: f64) -> f64 
     constants.face * constants.diameter * square / (2.0 * constants.twice_shear)
 }
 
-/// What a pair that changes takes with it [J]: the energy from before the step, and the work of the step,
-/// half of which the old stress did while the new one does the other half.
+/// What a pair that changes takes with it [J]: the energy from before the step, and the work of the
+/// step, half of which the old stress did while the new one does the other half.
 fn pair_work(line: &Line, constants: &Constants, mean: f64) -> f64 {
     let [normal, across] = line.stress;
     let own = normal - 0.5 * constants.coupling * mean;

@@ -15,8 +15,8 @@ pub(crate) struct Forces<'a> {
 }
 
 impl Forces<'_> {
-    /// Adds the forces of a block; the dashpots of linked pairs take part. Returns the squares of their
-    /// strains.
+    /// Adds the forces of a block; the dashpots of linked pairs take part. Returns the squares of
+    /// their strains.
     #[inline(always)]
     pub(crate) fn act(&mut self, block: &Block, ends: impl Ends, stress: [Four; 2]) -> Four {
         let dashpot = block.live * self.viscosity;

@@ -1,6 +1,7 @@
-//! Four numbers at a time, in a plain array. What works on them by lanes becomes vectors, as wide as the
-//! target that it is compiled for has them; a pass is compiled for several targets and picks one when it
-//! runs. Products and sums are never contracted, so that all of them give the same bits.
+//! Four numbers at a time, in a plain array. What works on them by lanes becomes vectors, as wide
+//! as the target that it is compiled for has them; a pass is compiled for several targets and picks
+//! one when it runs. Products and sums are never contracted, so that all of them give the same
+//! bits.
 
 use std::array;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};

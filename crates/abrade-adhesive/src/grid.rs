@@ -103,7 +103,8 @@ impl Grid {
         row * self.cells[0] + column
     }
 
-    /// Calls `found` with every point after point `i`, which is `point`, that is nearer to it than the reach.
+    /// Calls `found` with every point after point `i`, which is `point`, that is nearer to it than
+    /// the reach.
     pub(crate) fn each_later(&self, i: usize, point: [f64; 2], mut found: impl FnMut(usize)) {
         let at = self.cell_of_point[i];
         let [column, row] = [at % self.cells[0], at / self.cells[0]];
@@ -131,8 +132,8 @@ impl Grid {
         dx * dx + dy * dy
     }
 
-    /// The columns beside `column` and itself, each once: those in a line with it, and one beyond the
-    /// period's end.
+    /// The columns beside `column` and itself, each once: those in a line with it, and one beyond
+    /// the period's end.
     fn around(&self, column: usize) -> [Range<usize>; 2] {
         let count = self.cells[0];
         let beside = column.saturating_sub(1)..(column + 2).min(count);

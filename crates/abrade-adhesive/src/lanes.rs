@@ -1,4 +1,5 @@
-//! Passes over blocks of four pairs, whose ends lie beside each other in the columns of elements or anywhere.
+//! Passes over blocks of four pairs, whose ends lie beside each other in the columns of elements or
+//! anywhere.
 //!
 //! Sums over an element's pairs stand in two columns, of the pairs that it begins and of those that it
 //! ends. Blocks that follow each other then never add to overlapping quarters, for which a processor

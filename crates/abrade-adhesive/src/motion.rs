@@ -7,7 +7,8 @@ use crate::four::{Four, LANES};
 use crate::lanes::{Sum, load, sides, store, take};
 use crate::solid::Constants;
 
-/// The first half of a step: velocities of its middle, and positions of its end. Sums of forces begin anew.
+/// The first half of a step: velocities of its middle, and positions of its end. Sums of forces
+/// begin anew.
 #[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn begin(elements: &mut Elements, step: f64) {
     let count = elements.x.len();

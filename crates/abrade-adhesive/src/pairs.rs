@@ -188,7 +188,8 @@ struct Ended {
     can_break: bool,
 }
 
-/// The links of an assembly, each once, by the distance of their ends' indices, then by the first end.
+/// The links of an assembly, each once, by the distance of their ends' indices, then by the first
+/// end.
 fn links(assembly: &Assembly) -> Vec<Ended> {
     let ended = |link: &Link| {
         let [i, j] = link.ends;

@@ -1,5 +1,5 @@
-//! The last pass over the pairs in a step: each follows the return of its ends, changes if that is due, and
-//! acts on them. Changes touch nothing that other pairs of this pass go by.
+//! The last pass over the pairs in a step: each follows the return of its ends, changes if that is
+//! due, and acts on them. Changes touch nothing that other pairs of this pass go by.
 
 use multiversion::multiversion;
 
@@ -102,8 +102,8 @@ struct Changes<'a> {
 }
 
 impl Changes<'_> {
-    /// Changes pairs of a block: there is a bit for each that is `due`, and for each that fails if it is a
-    /// link.
+    /// Changes pairs of a block: there is a bit for each that is `due`, and for each that fails if
+    /// it is a link.
     #[inline(never)]
     fn change<E: Ends>(&mut self, at: usize, block: &mut Block, ends: E, [due, fails]: [u32; 2]) {
         for lane in (0..LANES).filter(|lane| due & (1 << lane) != 0) {

@@ -167,11 +167,12 @@ pub(crate) struct Constants {
     pub(crate) strength: f64,
     pub(crate) strength_shear: f64,
     pub(crate) strength_mean: f64,
-    /// Stress that no link fails under [Pa], where neither its own stresses nor the equivalent and mean stress
-    /// of its ends exceed it.
+    /// Stress that no link fails under [Pa], where neither its own stresses nor the equivalent and
+    /// mean stress of its ends exceed it.
     ///
-    /// With that stress T: the stresses along the face and along z are up to T + 2 T / 3, their difference up
-    /// to 2 T / sqrt(3). The equivalent stress of the face then is below 3.3 T and its mean below 1.5 T.
+    /// With that stress T: the stresses along the face and along z are up to T + 2 T / 3, their
+    /// difference up to 2 T / sqrt(3). The equivalent stress of the face then is below 3.3 T and
+    /// its mean below 1.5 T.
     pub(crate) calm: f64,
     /// sigma_0 [Pa] and delta [m].
     pub(crate) adhesion: f64,
