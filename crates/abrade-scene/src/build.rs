@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use abrade::{Body, Surface, SurfaceError, SurfaceLaws};
+use abrade::{Body, Surface, SurfaceError};
 use nalgebra::Isometry3;
 use thiserror::Error;
 
@@ -129,15 +129,7 @@ impl Checked {
         let material = self.scene.materials.get(&surface.material).ok_or_else(unchecked)?;
         let path = self.paths.get(name);
         let pose = place::start(surface, path).ok_or_else(unchecked)?;
-        let laws = SurfaceLaws {
-            material: material.clone(),
-            elastic: surface.elastic.clone(),
-            flow: surface.flow.clone(),
-            removal: surface.removal.clone(),
-            restitution: surface.restitution,
-            adhesion: surface.adhesion.clone(),
-            archard: surface.archard.clone(),
-        };
+        let laws = surface.laws(material);
         let stand_in = StandIn::of(&surface.geometry);
         let mesh = self.meshes.get(name);
         let carrier = BuiltCarrier::new(&surface.motion, &pose, path, mesh);

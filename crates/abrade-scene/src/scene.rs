@@ -4,6 +4,7 @@
 //! The words are fixed: scripts and files outside this repository use them. Every field states its
 //! unit in brackets; the JSON schema and the field reference are made from these lines.
 
+mod adhesion;
 mod body;
 mod copies;
 mod geometry;
@@ -22,6 +23,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+pub use adhesion::SceneAdhesion;
 pub use body::{Placement, Rotation, SceneBody};
 pub use copies::Copies;
 pub use geometry::Geometry;

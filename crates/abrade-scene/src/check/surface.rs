@@ -12,7 +12,7 @@ use super::{Checker, vector};
 use crate::closed::{self, ClosedMesh};
 use crate::place;
 use crate::problem::Problem;
-use crate::scene::{Geometry, SceneSurface};
+use crate::scene::{Geometry, SceneAdhesion, SceneSurface};
 use crate::spans::ScenePath;
 
 impl Checker<'_> {
@@ -99,15 +99,7 @@ impl Checker<'_> {
             let name = &surface.material;
             return self.undefined(&path.join("material"), "material", name, &known);
         };
-        let laws = SurfaceLaws {
-            material: material.clone(),
-            elastic: surface.elastic.clone(),
-            flow: surface.flow.clone(),
-            removal: surface.removal.clone(),
-            restitution: surface.restitution,
-            adhesion: surface.adhesion.clone(),
-            archard: surface.archard.clone(),
-        };
+        let laws = surface.laws(material);
         let literal = surface.flow == FlowLaw::CapozzaHanley { lateral: Lateral::Eq5 };
         if literal && surface.elastic == ElasticLaw::Rigid {
             let message = "`lateral: Eq5` is the paper's formula for a ball on springs".to_owned();
@@ -123,12 +115,34 @@ impl Checker<'_> {
         }
         let errors = surface.archard.iter().flat_map(Archard::check);
         self.ranges(&path.join("archard"), errors.map(Some));
-        let errors = surface.adhesion.iter().flat_map(|adhesion| adhesion.check(material));
-        self.ranges(&path.join("adhesion"), errors.map(Some));
+        if let Some(adhesion) = &surface.adhesion {
+            self.check_adhesion(path, adhesion, surface);
+        }
         for error in laws.check() {
             if let SurfaceError::Missing { law, field } = error {
                 self.missing(path, &surface.material, law, field);
             }
+        }
+    }
+
+    fn check_adhesion(
+        &mut self,
+        path: &ScenePath,
+        adhesion: &SceneAdhesion,
+        surface: &SceneSurface,
+    ) {
+        let material = &self.scene.materials[&surface.material];
+        let at = path.join("adhesion");
+        let errors = adhesion.on(material).check(material);
+        self.ranges(&at, errors.into_iter().map(Some));
+        let Some(radius) = adhesion.maugis_radius else { return };
+        self.ranges(&at, [ParameterError::positive("maugis_radius", radius)]);
+        if adhesion.pull_off.is_some() {
+            let message = format!("`{at}` has both `pull_off` and `maugis_radius`");
+            self.refuse(&at, message, "give one of them");
+        }
+        if material.young.is_none() {
+            self.missing(path, &surface.material, "`maugis_radius`", "young");
         }
     }
 

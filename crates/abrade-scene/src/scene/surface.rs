@@ -1,11 +1,11 @@
 //! Surfaces of a scene.
 
 use abrade::quantity::{self, Quantity};
-use abrade::{Adhesion, Archard, ElasticLaw, FlowLaw, Lateral, Removal};
+use abrade::{Archard, ElasticLaw, FlowLaw, Lateral, Material, Removal, SurfaceLaws};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{Copies, Geometry, HardnessMap, Region, Rotation, vectors};
+use super::{Copies, Geometry, HardnessMap, Region, Rotation, SceneAdhesion, vectors};
 
 /// A surface that wears.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -44,7 +44,7 @@ pub struct SceneSurface {
     pub restitution: f64,
     /// Adhesion to bodies (default: nothing sticks).
     #[serde(default)]
-    pub adhesion: Option<Adhesion>,
+    pub adhesion: Option<SceneAdhesion>,
     /// Wear by what slides over it below its hardness (default: none).
     #[serde(default)]
     pub archard: Option<Archard>,
@@ -59,6 +59,21 @@ pub struct SceneSurface {
     /// file, one set of history columns; a picture and a mesh file are of the first one.
     #[serde(default)]
     pub copies: Option<Copies>,
+}
+
+impl SceneSurface {
+    /// Its laws, on `material`.
+    pub(crate) fn laws(&self, material: &Material) -> SurfaceLaws {
+        SurfaceLaws {
+            material: material.clone(),
+            elastic: self.elastic.clone(),
+            flow: self.flow.clone(),
+            removal: self.removal.clone(),
+            restitution: self.restitution,
+            adhesion: self.adhesion.as_ref().map(|adhesion| adhesion.on(material)),
+            archard: self.archard.clone(),
+        }
+    }
 }
 
 /// How a surface moves. Directions count in world axes.
