@@ -8,6 +8,7 @@ use serde::Deserialize;
 
 use crate::assembly::{Assembly, Element, Hold};
 use crate::error::AdhesiveError;
+use crate::numerics::Numerics;
 use crate::packing::{Packing, Room};
 use crate::profile::Profile;
 use crate::solid::Solid;
@@ -52,7 +53,8 @@ pub struct Asperities {
     pub travel: Option<f64>,
     /// Drag of the bases in shear waves through the base (default 0.5): ringing of the slabs dies out [-].
     pub base_drag: f64,
-    /// Step in times that a longitudinal wave takes through an element (default 0.5) [-].
+    /// Step in times that a longitudinal wave takes through an element (default 0.5), below
+    /// [`crate::Numerics::limit`] [-].
     pub courant: f64,
     /// Relaxation time of the links' dashpots in the same times (default 0.1) [-].
     pub viscosity: f64,
@@ -60,7 +62,7 @@ pub struct Asperities {
 
 impl Default for Asperities {
     fn default() -> Self {
-        let numerics = crate::Numerics::default();
+        let numerics = Numerics::default();
         Self {
             diameter: 25e-6,
             profile: Profile::default(),
@@ -101,7 +103,6 @@ pub enum Place {
 impl Asperities {
     /// Every value outside its range, with the field it stands in.
     pub fn check(&self) -> Vec<ParameterError> {
-        let numerics = crate::Numerics { courant: self.courant, viscosity: self.viscosity };
         let d = self.diameter;
         let mut found: Vec<ParameterError> =
             ParameterError::positive("diameter", d).into_iter().collect();
@@ -122,12 +123,22 @@ impl Asperities {
             .into_iter()
             .flatten(),
         );
-        found.extend(numerics.check());
+        found.extend(self.numerics().check());
         found.extend(self.packing.check());
         if found.is_empty() {
             found.extend(self.profile.check(d, self.whole_period()));
         }
         found
+    }
+
+    /// A fault if the step is not stable in `solid`; both are checked.
+    pub fn unstable(&self, solid: &Solid) -> Option<ParameterError> {
+        self.numerics().unstable(solid, 1.0)
+    }
+
+    /// How time is cut.
+    pub(crate) fn numerics(&self) -> Numerics {
+        Numerics { courant: self.courant, viscosity: self.viscosity }
     }
 
     /// The period in whole diameters [m].

@@ -71,6 +71,26 @@ impl Assembly {
         }
     }
 
+    /// How much stiffer spins may be than in a lattice [-], 1 at least.
+    ///
+    /// Against spins, the links of two ends act with their lengths; the largest sum of those of both
+    /// ends of a link, over those of a lattice, bounds the stiffness (a matrix with a row for each
+    /// link has the same eigenvalues, and none exceeds its largest sum of a row).
+    pub(crate) fn linkage(&self) -> f64 {
+        let length = |link: &Link| {
+            let [i, j] = link.ends.map(|end| self.elements[end as usize].position);
+            let dx = j[0] - i[0];
+            let image = self.period.map_or(0.0, |period| period * (dx / period).round());
+            (dx - image).hypot(j[1] - i[1]) / self.diameter
+        };
+        let mut sums = vec![0.0; self.elements.len()];
+        for link in &self.links {
+            link.ends.iter().for_each(|end| sums[*end as usize] += length(link));
+        }
+        let both = |link: &Link| link.ends.map(|end| sums[end as usize]).iter().sum::<f64>();
+        self.links.iter().map(|link| both(link) / 12.0).fold(1.0, f64::max)
+    }
+
     /// The first fault.
     pub(crate) fn check(&self) -> Result<(), AdhesiveError> {
         if let Some(error) = ParameterError::positive("diameter", self.diameter) {

@@ -4,7 +4,7 @@ use crate::asperities::{Asperities, Part, Place};
 use crate::classify::{self, Figures, State};
 use crate::error::AdhesiveError;
 use crate::pairs::Pair;
-use crate::simulation::{Numerics, Simulation};
+use crate::simulation::Simulation;
 use crate::solid::Solid;
 
 /// Share of the travel at whose end the pace of the elements is taken.
@@ -33,14 +33,13 @@ impl Collision {
     /// The bodies of a solid at the start.
     ///
     /// # Errors
-    /// A parameter is out of range, or the bodies overlap.
+    /// A parameter is out of range, the step is not stable in the solid, or the bodies overlap.
     pub fn new(solid: &Solid, asperities: &Asperities) -> Result<Self, AdhesiveError> {
         if let Some(error) = solid.check().into_iter().chain(asperities.check()).next() {
             return Err(error.into());
         }
         let (assembly, parts) = asperities.assemble(solid)?;
-        let numerics = Numerics { courant: asperities.courant, viscosity: asperities.viscosity };
-        let simulation = Simulation::new(solid, &assembly, numerics)?;
+        let simulation = Simulation::new(solid, &assembly, asperities.numerics())?;
         let start: Vec<[f64; 2]> = assembly.elements.iter().map(|e| e.position).collect();
         let lower = Part { is_upper: false, place: Place::Rigid };
         let period = asperities.whole_period();

@@ -1,7 +1,5 @@
 //! The motion of an assembly: one step is a kick, a drift, the passes over pairs and elements, a kick.
 
-use abrade::ParameterError;
-
 use crate::assembly::Assembly;
 use crate::elastic;
 use crate::elements::Elements;
@@ -13,6 +11,7 @@ use crate::kinematics;
 use crate::ledger::Ledger;
 use crate::motion;
 use crate::neighbours::{Neighbours, ROOM};
+use crate::numerics::Numerics;
 use crate::pairs::{LinkState, Pair, Pairs};
 use crate::returned::{self, Due};
 use crate::solid::{Constants, Solid};
@@ -22,33 +21,6 @@ const LOOK: f64 = 20.0;
 /// The furthest that an element may come between two looks at twice its speed, in diameters: what is not
 /// yet listed stays out of reach.
 const STRIDE: f64 = 0.5 * ROOM;
-
-/// How finely time is cut, and how much the links dampen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Numerics {
-    /// Step, in times that a longitudinal wave takes through an element [-]. Stable to 0.65.
-    pub courant: f64,
-    /// Relaxation time of the links' dashpots, in the same times [-].
-    pub viscosity: f64,
-}
-
-impl Default for Numerics {
-    fn default() -> Self {
-        Self { courant: 0.5, viscosity: 0.1 }
-    }
-}
-
-impl Numerics {
-    /// Every value outside its range, with the field it stands in.
-    pub fn check(&self) -> Vec<ParameterError> {
-        let found = [
-            ParameterError::positive("courant", self.courant),
-            ParameterError::within("courant", self.courant, 0.0, 1.0),
-            ParameterError::within("viscosity", self.viscosity, 0.0, 1.0),
-        ];
-        found.into_iter().flatten().take(1).collect()
-    }
-}
 
 /// An assembly in motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,7 +43,8 @@ impl Simulation {
     /// The assembly of a solid at its start.
     ///
     /// # Errors
-    /// A parameter is out of range, or a link or element of the assembly is impossible.
+    /// A parameter is out of range, the step is not stable in the solid, or a link or element of the
+    /// assembly is impossible.
     pub fn new(
         solid: &Solid,
         assembly: &Assembly,
@@ -81,6 +54,14 @@ impl Simulation {
             return Err(error.into());
         }
         assembly.check()?;
+        match numerics.unstable(solid, assembly.linkage()) {
+            Some(error) => Err(error.into()),
+            None => Ok(Self::begin(solid, assembly, numerics)),
+        }
+    }
+
+    /// The assembly at its start, with parameters that are checked.
+    pub(crate) fn begin(solid: &Solid, assembly: &Assembly, numerics: Numerics) -> Self {
         let diameter = assembly.diameter;
         let constants = Constants::new(solid, diameter);
         let wave_time = diameter / solid.longitudinal_speed();
@@ -93,7 +74,7 @@ impl Simulation {
         let viscosity = constants.twice_shear * numerics.viscosity / numerics.courant;
         let due = Due::with_capacity(pairs.nx.len());
         let sums = Ledger::default();
-        Ok(Self {
+        Self {
             constants,
             step,
             viscosity,
@@ -104,7 +85,7 @@ impl Simulation {
             neighbours,
             due,
             sums,
-        })
+        }
     }
 
     /// Goes on by one step.
@@ -143,12 +124,29 @@ impl Simulation {
             let allowed = room / (2.0 * self.step);
             return Err(AdhesiveError::TooFast { time: self.time(), element, speed, allowed });
         }
+        self.refuse_spin()?;
         let steps = (room / stride).floor().clamp(1.0, LOOK);
         self.next_look = self.steps + steps as u64;
         if self.neighbours.moved(&self.elements) + steps * stride > room {
             self.neighbours.list(&self.elements, &mut self.pairs);
         }
         Ok(())
+    }
+
+    /// Refuses spins whose faces move as far as no element may: that is a step that is not stable.
+    fn refuse_spin(&self) -> Result<(), AdhesiveError> {
+        let radius = 0.5 * self.constants.diameter;
+        let allowed = STRIDE * self.constants.diameter / (2.0 * self.step);
+        let spins = &self.elements.spin[..self.elements.count];
+        // A spin that is not a number is too fast, too.
+        let is_fine = |spin: &f64| spin.abs() * radius <= allowed;
+        match spins.iter().position(|spin| !is_fine(spin)) {
+            Some(element) => {
+                let (time, speed) = (self.time(), spins[element].abs() * radius);
+                Err(AdhesiveError::TooFast { time, element, speed, allowed })
+            }
+            None => Ok(()),
+        }
     }
 
     /// Time since the start [s].

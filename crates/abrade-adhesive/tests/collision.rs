@@ -1,7 +1,9 @@
 //! Asperities that collide: what they are made of, and what becomes of them without a threshold made for
 //! the case.
 
-use abrade_adhesive::{AdhesiveError, Asperities, Collision, Mode, Packing, Place, Profile, Solid};
+use abrade_adhesive::{
+    AdhesiveError, Asperities, Collision, Mode, Numerics, Packing, Place, Profile, Solid,
+};
 
 fn collide(solid: Solid, asperities: &Asperities) -> Collision {
     let mut collision = Collision::new(&solid, asperities).unwrap();
@@ -44,6 +46,30 @@ fn bodies_that_do_not_touch_feel_nothing() {
         assert!(collision.mean_load().iter().all(|force| force.abs() < 1e-6), "{packing:?}");
         let elements = collision.parts().len() as f64;
         assert!((elements / 3586.0 - 1.0).abs() < 0.03, "{packing:?}: {elements}");
+    }
+}
+
+/// Fails for steps that let spins run away, which ground bodies that never met: a limit without
+/// Poisson's ratio or the dashpots.
+#[test]
+fn idle_bodies_stay_whole_at_any_step_that_is_let_through() {
+    for poisson in [0.0, 0.1, 0.2, 0.3, 0.45] {
+        for viscosity in [0.0, 0.1, 0.4] {
+            let limit = Numerics::limit(viscosity, poisson);
+            let solid = Solid { poisson, ..solid(1.0, 0.4) };
+            let of = |courant: f64| Asperities {
+                overlap: -0.9,
+                travel: Some(30e-6),
+                courant,
+                viscosity,
+                ..Asperities::default()
+            };
+            let figures = collide(solid, &of(0.97 * limit.min(1.0))).figures();
+            assert_eq!(figures.failed, 0.0, "{poisson} {viscosity}");
+            let error = Collision::new(&solid, &of(limit)).unwrap_err();
+            let AdhesiveError::Parameter(error) = error else { panic!("{error}") };
+            assert_eq!(error.field, "courant", "{poisson} {viscosity}");
+        }
     }
 }
 

@@ -71,15 +71,13 @@ fn energy_errs_with_the_square_of_the_step_and_momenta_are_kept() {
     }
 }
 
-/// Fails for a limit of the step that is not the one stated.
+/// Fails for a limit of the step that is not the one stated: 0.695 without dashpots.
 #[test]
-fn steps_are_stable_to_0_65_and_not_to_0_70() {
+fn steps_are_stable_to_0_65_and_refused_at_0_70() {
     assert!(run(0.5, 0.65, 5_000)[0] < 0.1);
     let numerics = Numerics { courant: 0.70, viscosity: 0.0 };
-    let mut simulation = Simulation::new(&elastic(), &shaken(0.5), numerics).unwrap();
-    let start = simulation.ledger().balance();
-    let ended = (0..5_000).try_for_each(|_| simulation.step());
-    assert!(ended.is_err() || simulation.ledger().balance() > 10.0 * start);
+    let refused = Simulation::new(&elastic(), &shaken(0.5), numerics).unwrap_err();
+    assert!(refused.to_string().contains("below 0.6946"), "{refused}");
 }
 
 /// Fails for plastic work, dashpots or a drive that the ledger forgets: each is many times the residual.

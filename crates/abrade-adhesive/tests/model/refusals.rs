@@ -29,6 +29,26 @@ fn parameters_out_of_range_are_named() {
     assert_eq!(refused(Solid::default(), numerics).0, "courant");
 }
 
+/// Fails for a limit of the step that does not know the solid, the dashpots or how dense links are.
+#[test]
+fn steps_that_are_not_stable_are_refused() {
+    let refused = |poisson: f64, viscosity: f64, reach: f64| {
+        let mut assembly = block(8, 8);
+        assembly.links.clear();
+        assembly.link_within(reach, |_, _| true);
+        let numerics = Numerics { courant: 0.5, viscosity };
+        let solid = Solid { poisson, ..elastic() };
+        Simulation::new(&solid, &assembly, numerics).err().map(|error| error.to_string())
+    };
+    assert_eq!(refused(0.3, 0.1, 1.01), None);
+    // W = 16 pi / sqrt(3) (1 - 2 nu) / (2 - 2 nu) = 12.898, C = sqrt(v^2 + 4 / W) - v.
+    let soft = refused(0.1, 0.1, 1.01).unwrap();
+    assert!(soft.contains("`courant` is 0.5; must be below 0.4658 with"), "{soft}");
+    assert!(soft.contains("`viscosity` 0.1, `poisson` 0.1"), "{soft}");
+    assert!(refused(0.3, 0.5, 1.01).unwrap().contains("below 0.3558"));
+    assert!(refused(0.3, 0.1, 1.8).unwrap().contains("times as dense"));
+}
+
 /// Fails for ends of links that are taken as indices unseen.
 #[test]
 fn impossible_assemblies_are_refused() {
