@@ -181,6 +181,16 @@ impl Pairs {
         self.breaks[last] = met.breaks;
     }
 
+    /// Measures pair `at` anew to the nearest image of its second end, if that is another than before.
+    pub(crate) fn measure(&mut self, at: usize, elements: &Elements, period: Option<f64>) {
+        let between = Between::of(elements, self.ends.of(at), period);
+        if between.image != self.image[at] {
+            [self.nx[at], self.ny[at]] = between.direction;
+            self.distance[at] = between.distance;
+            self.image[at] = between.image;
+        }
+    }
+
     /// Takes off all pairs from `count` on.
     pub(crate) fn truncate(&mut self, count: usize) {
         let loose = count - self.ends.runs.len() * LANES;
@@ -212,20 +222,15 @@ impl Pairs {
         &mut self,
         contact: f64,
         elements: &Elements,
-        [i, j]: [u32; 2],
+        ends: [u32; 2],
         period: Option<f64>,
     ) {
-        let [i, j] = [i as usize, j as usize];
-        let dx = elements.x[j] - elements.x[i];
-        let image = period.map_or(0.0, |period| -period * (dx / period).round());
-        let (dx, dy) = (dx + image, elements.y[j] - elements.y[i]);
-        let distance = dx.hypot(dy);
+        let between = Between::of(elements, ends, period);
         self.numbers().for_each(|column| column.push(0.0));
         let last = self.len() - 1;
-        self.nx[last] = dx / distance;
-        self.ny[last] = dy / distance;
-        self.distance[last] = distance;
-        self.image[last] = image;
+        [self.nx[last], self.ny[last]] = between.direction;
+        self.distance[last] = between.distance;
+        self.image[last] = between.image;
         self.strength[last] = self.breaking;
         self.contact[last] = contact;
         self.state.push(LinkState::Open);
@@ -239,6 +244,24 @@ impl Pairs {
         if !can_break {
             self.strength[last] = f64::INFINITY;
         }
+    }
+}
+
+/// The way from one element to the nearest image of another.
+struct Between {
+    direction: [f64; 2],
+    distance: f64,
+    image: f64,
+}
+
+impl Between {
+    fn of(elements: &Elements, [i, j]: [u32; 2], period: Option<f64>) -> Self {
+        let [i, j] = [i as usize, j as usize];
+        let dx = elements.x[j] - elements.x[i];
+        let image = period.map_or(0.0, |period| -period * (dx / period).round());
+        let (dx, dy) = (dx + image, elements.y[j] - elements.y[i]);
+        let distance = dx.hypot(dy);
+        Self { direction: [dx / distance, dy / distance], distance, image }
     }
 }
 
