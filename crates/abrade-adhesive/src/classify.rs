@@ -18,8 +18,8 @@ const CLEAVED: f64 = 0.05;
 const BROKEN_AWAY: f64 = 0.15;
 /// Elements that left their body by this many diameters have moved [-].
 pub(crate) const MOVED: f64 = 2.0;
-/// Pairs within this many diameters are beside each other [-].
-const BESIDE: f64 = 1.2;
+/// Linked elements are beside each other up to this many diameters more than at the start [-].
+const BESIDE: f64 = 0.2;
 
 /// What became of the asperities, in the paper's words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,12 +106,26 @@ pub(crate) struct State<'a> {
     pub(crate) parts: &'a [Part],
     pub(crate) pairs: &'a [Pair],
     pub(crate) diameter: f64,
+    /// Length after which everything repeats along x, and positions at the start [m].
+    pub(crate) period: f64,
+    pub(crate) start: &'a [[f64; 2]],
     /// Elements of a facet.
     pub(crate) facet: f64,
     /// How far each element left its body [m].
     pub(crate) left: &'a [f64],
     /// Velocity along x at the end over that of the lower body [-].
     pub(crate) pace: &'a [f64],
+}
+
+impl State<'_> {
+    /// Whether the ends of a pair that was linked at the start are about as near as then: the links of
+    /// a body are not all a diameter long.
+    fn are_beside(&self, pair: &Pair) -> bool {
+        let [i, j] = pair.ends.map(|end| self.start[end as usize]);
+        let dx = j[0] - i[0];
+        let dx = dx - self.period * (dx / self.period).round();
+        pair.distance <= dx.hypot(j[1] - i[1]) + BESIDE * self.diameter
+    }
 }
 
 /// The figures of a state.
@@ -128,7 +142,7 @@ pub(crate) fn figures(state: &State) -> Figures {
     // Lower bodies go at 1, upper ones at -1.
     let own = |at: usize| if state.parts[at].is_upper { -state.pace[at] } else { state.pace[at] };
     let (largest, small_pieces) = pieces(state, &moved, small);
-    let apart = |pair: &&Pair| pair.distance > BESIDE * state.diameter;
+    let apart = |pair: &&Pair| !state.are_beside(pair);
     let links = original().count().max(1) as f64;
     Figures {
         ground: share(ground(state, small)),
@@ -165,7 +179,7 @@ fn pieces(state: &State, moved: &[bool], small: usize) -> (usize, usize) {
     let mut pieces = Components::new(state.parts.len());
     let beside = |pair: &&Pair| {
         let [i, j] = pair.ends.map(|end| moved[end as usize]);
-        pair.is_original && i && j && pair.distance < BESIDE * state.diameter
+        pair.is_original && i && j && state.are_beside(pair)
     };
     for pair in state.pairs.iter().filter(beside) {
         pieces.join(pair.ends);
