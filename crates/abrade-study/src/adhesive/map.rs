@@ -97,6 +97,12 @@ impl Point {
     }
 }
 
+/// The interval in words: `<=` and `>=` where the runs do not bound it.
+fn interval(Boundary { interval: [low, high], is_bounded: [from, to], .. }: &Boundary) -> String {
+    let (from, to) = (if *from { "" } else { "<= " }, if *to { "" } else { ">= " });
+    format!("{from}{low:.2} to {to}{high:.2}")
+}
+
 impl Map {
     /// Number of cases that are missing.
     pub fn missing(&self) -> usize {
@@ -147,9 +153,11 @@ impl Map {
         for (ratio, strength, boundary) in self.boundaries() {
             let (ratio, strength) = (format!("a = {ratio}"), strength / 1e6);
             text += &match boundary {
-                Some(Boundary { at, interval: [low, high] }) => format!(
+                Some(boundary) => format!(
                     "{ratio}, sigma_j {strength} MPa: half of the runs grind at sigma_0/sigma_j = \
-                     {at:.2} ({low:.2} to {high:.2})\n"
+                     {:.2} ({})\n",
+                    boundary.at,
+                    interval(&boundary)
                 ),
                 None => {
                     format!("{ratio}, sigma_j {strength} MPa: no boundary among these points\n")

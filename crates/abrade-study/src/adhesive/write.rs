@@ -94,7 +94,7 @@ fn boundaries(map: &Map) -> String {
     let mut text = "strength_ratio,shear_strength_Pa,boundary,low95,high95,paper_eq4\n".to_owned();
     for (ratio, strength, boundary) in map.boundaries() {
         let found = match boundary {
-            Some(Boundary { at, interval: [low, high] }) => format!("{at},{low},{high}"),
+            Some(Boundary { at, interval: [low, high], .. }) => format!("{at},{low},{high}"),
             None => ",,".to_owned(),
         };
         let paper = paper(ratio, map.file.solid.poisson);
