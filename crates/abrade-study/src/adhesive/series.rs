@@ -28,10 +28,10 @@ impl Series {
         f64::from(self.seen) / f64::from(self.rows)
     }
 
-    /// Writes a row down if one is due.
+    /// Writes a row down if one is due, or several: an instant stands once.
     pub(crate) fn see(&mut self, collision: &Collision) {
         if collision.share() >= self.next() {
-            self.seen += 1;
+            self.seen = passed(collision.share(), self.rows).max(self.seen + 1);
             self.add(collision);
         }
     }
@@ -70,4 +70,9 @@ impl Series {
         self.add(collision);
         atomic::write(&folder.join("timeseries.csv"), self.text.as_bytes())
     }
+}
+
+/// How many of `count` instants, evenly from the start on, are due after the share `share` of the travel.
+pub(crate) fn passed(share: f64, count: u32) -> u32 {
+    (share * f64::from(count)).floor() as u32 + 1
 }

@@ -1,0 +1,35 @@
+//! Collisions of asperities and maps of them, cut short.
+
+use std::path::{Path, PathBuf};
+
+use abrade_scene::Progress;
+use abrade_study::adhesive;
+
+struct Patient;
+
+impl Progress for Patient {
+    fn advance(&mut self, _: f64, _: Option<f64>) -> bool {
+        true
+    }
+}
+
+fn write(folder: &Path, text: &str) -> PathBuf {
+    let path = folder.join("file.ron");
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+/// Fails for a row or a frame a call where several are due in one step: an instant would stand many times.
+#[test]
+fn more_rows_than_steps_do_not_repeat_an_instant() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = r#"(version: 1, name: "short", bodies: (travel: "1 um"), frames: 300, rows: 1000)"#;
+    let scene = adhesive::load_scene(&write(folder.path(), scene), &[]).unwrap();
+    let ended = adhesive::run(&scene, folder.path(), &mut Patient).unwrap();
+    let steps = ended.summary.steps as usize;
+    assert!((30..40).contains(&steps), "{steps}");
+    let rows = std::fs::read_to_string(folder.path().join("timeseries.csv")).unwrap();
+    assert_eq!(rows.lines().count(), 1 + steps + 1, "head, before each step, end");
+    let frames = std::fs::read_to_string(folder.path().join("elements.pvd")).unwrap();
+    assert_eq!(frames.matches("<DataSet").count(), steps + 1);
+}
