@@ -62,7 +62,8 @@ fn range_stress(constants: &Constants) -> f64 {
     constants.twice_shear * constants.adhesion_range / constants.diameter
 }
 
-/// A link fails. Under a tension that adhesion bears, its faces stay in touch and slip.
+/// A link fails. Under a tension that adhesion bears, its faces stay in touch and slip; it fails anew in
+/// the next step if the stresses that are left are too much for it.
 fn fail(
     elements: &mut Elements,
     pairs: &mut Pairs,
@@ -71,6 +72,7 @@ fn fail(
     mean: f64,
 ) {
     pairs.breaks[at] += 1;
+    pairs.failures += 1;
     pairs.tangential[at] = 0.0;
     let stress = pairs.normal[at];
     if stress <= constants.adhesion {

@@ -30,7 +30,8 @@ pub struct Pair {
     pub distance: f64,
     /// Normal stress, tension above zero, and tangential stress of the face [Pa].
     pub stress: [f64; 2],
-    /// How often its link failed.
+    /// In how many steps its link failed; one that slips fails in each that asks more of it than it
+    /// bears.
     pub breaks: u32,
     /// Whether it was linked at the start.
     pub is_original: bool,
@@ -73,8 +74,10 @@ pub(crate) struct Pairs {
     pub(crate) state: Vec<LinkState>,
     /// Distance at which the faces would just touch without stress [m].
     pub(crate) contact: Vec<f64>,
-    /// How often the link failed.
+    /// In how many steps the link failed.
     pub(crate) breaks: Vec<u32>,
+    /// The same of all pairs, with those that are no longer listed.
+    pub(crate) failures: u64,
     /// Compressive strength of a link that can break [Pa].
     breaking: f64,
 }
@@ -112,6 +115,7 @@ impl Pairs {
             state: Vec::new(),
             contact: Vec::new(),
             breaks: Vec::new(),
+            failures: 0,
             breaking: strength,
         };
         let diameter = assembly.diameter;

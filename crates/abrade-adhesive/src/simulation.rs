@@ -215,6 +215,12 @@ impl Simulation {
         })
     }
 
+    /// Failures of links so far, also of pairs that are no longer within reach. A link that slips
+    /// fails in every step that asks more of it than it bears: this counts steps of links.
+    pub fn failures(&self) -> u64 {
+        self.pairs.failures
+    }
+
     /// Where the energy is and where it went.
     pub fn ledger(&self) -> Ledger {
         let e = &self.elements;

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use abrade_adhesive::Collision;
+use abrade_adhesive::{Collision, LinkState, Pair};
 use abrade_report::{ReportError, atomic};
 
 use super::file::SceneFile;
@@ -39,12 +39,8 @@ impl Series {
     fn add(&mut self, collision: &Collision) {
         let simulation = collision.simulation();
         let (ledger, [fx, fy]) = (simulation.ledger(), collision.load());
-        let (mut welds, mut failures) = (0, 0);
-        for pair in simulation.pairs() {
-            let is_linked = pair.state == abrade_adhesive::LinkState::Linked;
-            welds += usize::from(is_linked && !pair.is_original);
-            failures += u64::from(pair.breaks);
-        }
+        let is_weld = |pair: &Pair| pair.state == LinkState::Linked && !pair.is_original;
+        let (welds, failures) = (simulation.pairs().filter(is_weld).count(), simulation.failures());
         let energies = [
             ledger.kinetic,
             ledger.elastic,
