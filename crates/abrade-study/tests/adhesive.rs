@@ -33,3 +33,12 @@ fn more_rows_than_steps_do_not_repeat_an_instant() {
     let frames = std::fs::read_to_string(folder.path().join("elements.pvd")).unwrap();
     assert_eq!(frames.matches("<DataSet").count(), steps + 1);
 }
+
+/// Fails for a map that makes nothing and says nothing.
+#[test]
+fn a_map_without_a_case_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let map = r#"(version: 1, name: "none", strength_ratios: [1.7], adhesion_ratios: [5.0])"#;
+    let error = adhesive::load_map(&write(folder.path(), map), &[]).unwrap_err().to_string();
+    assert!(error.contains("no case") && error.contains("tensile strength"), "{error}");
+}

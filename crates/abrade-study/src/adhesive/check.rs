@@ -67,7 +67,16 @@ pub fn load_map(path: &Path, sets: &[String]) -> Result<MapFile, SceneError> {
         let message = format!("the map would have {count:.1e} cases");
         document.refuse(&["gaps"], message, format!("at most {CASES} are allowed"));
     }
+    check_cases(&mut document, &file, count);
     document.finish()
+}
+
+/// Refuses a map whose points all lie above the tensile strength.
+fn check_cases(document: &mut Document<MapFile>, file: &MapFile, points: f64) {
+    if points > 0.0 && points <= CASES as f64 && file.cases().is_empty() {
+        let label = "all points lie above the tensile strength of the solid";
+        document.refuse(&["adhesion_ratios"], "the map has no case", label);
+    }
 }
 
 fn check_list(
