@@ -83,7 +83,7 @@ impl Summary {
         format!(
             "{failure}{}: {}\n  ground {:.3}, largest piece {:.3} of an asperity, {:.2} ground rows, worn {:.3}\n  \
              transferred {:.3}, debris {:.3}, links failed {:.3}, joined: {}\n  \
-             mean load {:.0} N/m along, {:.0} N/m across; {} elements, {} steps\n",
+             mean force on the lower body {:.0} N/m along, {:.0} N/m across; {} elements, {} steps\n",
             self.name,
             figures.mode().name(),
             figures.ground,
@@ -94,8 +94,8 @@ impl Summary {
             figures.debris,
             figures.failed,
             if figures.are_joined { "yes" } else { "no" },
-            -self.mean_load[0],
-            -self.mean_load[1],
+            self.mean_load[0],
+            self.mean_load[1],
             self.elements,
             self.steps,
         )
