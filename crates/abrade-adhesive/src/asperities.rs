@@ -16,6 +16,9 @@ use crate::solid::Solid;
 /// Elements of a body nearer than this, in diameters, are linked: next neighbours, disordered or not.
 const LINKED: f64 = 1.3;
 
+/// Most places of a lattice that a body may lie on: its elements would fill gigabytes.
+const PLACES: f64 = 1e7;
+
 /// Two bodies and their way past each other. The paper leaves out facet, sides, base, period, speed and
 /// the level that its overlap counts from: those defaults are this program's.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -128,7 +131,18 @@ impl Asperities {
         if found.is_empty() {
             found.extend(self.profile.check(d, self.whole_period()));
         }
+        if found.is_empty() {
+            found.extend(self.too_many());
+        }
         found
+    }
+
+    /// A fault if there are more places for elements than a machine holds.
+    fn too_many(&self) -> Option<ParameterError> {
+        let places = self.room().places(&self.packing);
+        let allowed = format!("such that a body has at most {PLACES:e} places, not {places:.1e}");
+        let (field, value) = ("period", self.period);
+        (places > PLACES).then_some(ParameterError { field, value, allowed })
     }
 
     /// A fault if the step is not stable in `solid`; both are checked.

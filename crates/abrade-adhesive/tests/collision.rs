@@ -2,7 +2,8 @@
 //! the case.
 
 use abrade_adhesive::{
-    AdhesiveError, Asperities, Collision, Mode, Numerics, Packing, Pair, Place, Profile, Solid,
+    AdhesiveError, Asperities, Collision, Mode, Numerics, Packing, Pair, Place, Profile,
+    Solid,
 };
 
 fn collide(solid: Solid, asperities: &Asperities) -> Collision {
@@ -94,6 +95,25 @@ fn a_line_through_the_corners_is_the_trapezoid() {
     let line = of(Profile::Line { points }, 25.0);
     let trapezoid = of(Profile::default(), 1.2);
     assert!((line / trapezoid - 1.0).abs() < 0.1, "{line} for {trapezoid}");
+}
+
+/// Fails for bodies whose elements no machine holds, which would be made all the same.
+#[test]
+fn bodies_of_too_many_elements_are_refused() {
+    let refused = |asperities: Asperities| {
+        let fields = asperities.check().into_iter().map(|error| error.field).collect::<Vec<_>>();
+        fields.concat()
+    };
+    let line = |height: f64| Profile::Line { points: vec![[0.0, 0.0], [1e-3, height]] };
+    let usual = Asperities::default;
+    assert_eq!(refused(Asperities { profile: line(1e-3), ..usual() }), "");
+    assert_eq!(refused(Asperities { profile: line(1e4), ..usual() }), "points");
+    assert_eq!(refused(Asperities { profile: line(2.2), period: 2.25e-3, ..usual() }), "");
+    let long = Asperities { period: 2.4, base: 2e-3, ..usual() };
+    assert_eq!(refused(long.clone()), "period");
+    let turned = Packing::Rotated { angle: 0.3 };
+    assert_eq!(refused(Asperities { period: 0.1, packing: turned, ..usual() }), "period");
+    assert_eq!(refused(Asperities { period: 0.1, ..usual() }), "");
 }
 
 /// Fails for bodies that start inside each other, and run all the same.
