@@ -114,12 +114,13 @@ impl Room<'_> {
         }
     }
 
-    /// Rows along the surface; the facet of a trapezoid ends with an element at both sides.
+    /// Rows along the surface; the highest has as many elements as the facet of a trapezoid has room
+    /// for, evenly about its middle.
     fn rows(&self) -> Vec<[f64; 2]> {
         let d = self.diameter;
         let columns = (self.period / d).round() as usize;
         let rows = self.base_rows + self.asperity_rows;
-        let in_facet = (self.profile.facing(self.period) / d).round();
+        let in_facet = (self.profile.facing(self.period) / d + SLACK).floor();
         let mut centres = Vec::new();
         for row in 0..rows {
             let shift = 0.5 * (in_facet - 1.0) + 0.5 * ((rows - 1 - row) % 2) as f64;

@@ -2,7 +2,7 @@
 //! the case.
 
 use abrade_adhesive::{
-    AdhesiveError, Asperities, Collision, Mode, Numerics, Packing, Pair, Place, Profile,
+    AdhesiveError, Asperities, Collision, Mode, Numerics, Packing, Pair, Part, Place, Profile,
     Solid,
 };
 
@@ -95,6 +95,24 @@ fn a_line_through_the_corners_is_the_trapezoid() {
     let line = of(Profile::Line { points }, 25.0);
     let trapezoid = of(Profile::default(), 1.2);
     assert!((line / trapezoid - 1.0).abs() < 0.1, "{line} for {trapezoid}");
+}
+
+/// Fails for a facet whose elements are counted by rounding while its width cuts them: the wider one would
+/// have fewer.
+#[test]
+fn a_wider_facet_has_no_fewer_elements() {
+    let elements = |width: f64| {
+        let side = 90f64.to_radians();
+        let profile = Profile::Trapezoid { top: width * 25e-6, height: 0.5e-3, side };
+        let bodies = Asperities { profile, ..Asperities::default() };
+        let collision = Collision::new(&solid(1.0, 0.0), &bodies).unwrap();
+        let asperity = |part: &&Part| part.place == Place::Asperity;
+        collision.parts().iter().filter(asperity).count() / 2
+    };
+    // 23 rows: 12 of the facet's whole elements, between them 11 of one less.
+    for (width, whole) in [(20.0, 20), (20.4, 20), (20.6, 20), (20.9, 20), (21.0, 21), (21.3, 21)] {
+        assert_eq!(elements(width), 12 * whole + 11 * (whole - 1), "{width}");
+    }
 }
 
 /// Fails for bodies whose elements no machine holds, which would be made all the same.
