@@ -5,6 +5,9 @@ use abrade::ParameterError;
 use crate::error::AdhesiveError;
 use crate::grid::Grid;
 
+/// Elements nearer than this are at one place, in diameters: what rounding leaves of a distance.
+const ONE_PLACE: f64 = 1e-9;
+
 /// Which motion of an element is prescribed: it keeps that part of its velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Hold {
@@ -105,7 +108,7 @@ impl Assembly {
         let count = self.elements.len();
         let is_fine = |e: &Element| {
             let numbers = [e.position[0], e.position[1], e.velocity[0], e.velocity[1], e.drag];
-            numbers.iter().all(|x| x.is_finite())
+            numbers.iter().all(|x| x.is_finite()) && e.drag >= 0.0
         };
         if let Some(element) = self.elements.iter().position(|e| !is_fine(e)) {
             return Err(AdhesiveError::Element { element });
@@ -115,10 +118,21 @@ impl Assembly {
             if i >= count || j >= count || i == j {
                 return Err(AdhesiveError::Link { link, ends: *ends, elements: count });
             }
-            if self.elements[i].position == self.elements[j].position {
-                return Err(AdhesiveError::Element { element: j });
-            }
         }
-        Ok(())
+        match self.at_one_place() {
+            Some(ends) => Err(AdhesiveError::OnePlace { ends }),
+            None => Ok(()),
+        }
+    }
+
+    /// The first two elements with no distance that gives their pair a direction.
+    fn at_one_place(&self) -> Option<[usize; 2]> {
+        let positions: Vec<[f64; 2]> = self.elements.iter().map(|e| e.position).collect();
+        let grid = Grid::new(&positions, self.period, ONE_PLACE * self.diameter);
+        let mut found = None;
+        for i in 0..positions.len() {
+            grid.each_near(&positions, i, |j| found = found.or(Some([i, j])));
+        }
+        found
     }
 }

@@ -29,7 +29,7 @@ pub(crate) struct Elements {
     /// Elements with a drag.
     pub(crate) dragged: Vec<u32>,
     /// Number of linked faces, and the response that goes with it [Pa].
-    pub(crate) linked: Vec<u8>,
+    pub(crate) linked: Vec<u32>,
     pub(crate) response: Vec<f64>,
     /// Equivalent plastic strain [-].
     pub(crate) plastic_strain: Vec<f64>,
@@ -117,7 +117,7 @@ impl Elements {
             self.mobility_x[at] = free(hold.x, constants.mass);
             self.mobility_y[at] = free(hold.y, constants.mass);
             self.mobility_spin[at] = free(hold.spin, constants.inertia);
-            self.drag[at] = (element.drag * step).clamp(0.0, 1.0);
+            self.drag[at] = (element.drag * step).min(1.0);
             if hold.x || hold.y {
                 self.held.push((at as u32, hold));
             }
@@ -131,7 +131,7 @@ impl Elements {
     }
 
     /// Counts a linked face more or less of element `at`.
-    pub(crate) fn count_face(&mut self, at: usize, linked: u8, constants: &Constants) {
+    pub(crate) fn count_face(&mut self, at: usize, linked: u32, constants: &Constants) {
         self.linked[at] = linked;
         self.response[at] = constants.response_of(linked);
     }

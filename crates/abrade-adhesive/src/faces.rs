@@ -160,7 +160,7 @@ fn release(elements: &mut Elements, constants: &Constants, ends: [usize; 2], dro
 
 /// Counts the linked faces of all elements.
 pub(crate) fn count_links(elements: &mut Elements, pairs: &Pairs, constants: &Constants) {
-    let mut linked = vec![0u8; elements.x.len()];
+    let mut linked = vec![0u32; elements.x.len()];
     for at in (0..pairs.len()).filter(|at| pairs.state[*at] == LinkState::Linked) {
         for end in pairs.ends.of(at) {
             linked[end as usize] += 1;
@@ -168,5 +168,28 @@ pub(crate) fn count_links(elements: &mut Elements, pairs: &Pairs, constants: &Co
     }
     for (at, linked) in linked.into_iter().enumerate() {
         elements.count_face(at, linked, constants);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assembly::{Assembly, Element};
+    use crate::solid::Solid;
+
+    /// Fails for a count that begins anew at 256: the middle would have no linked face.
+    #[test]
+    fn an_element_may_have_hundreds_of_links() {
+        let place = |at: usize| if at == 0 { [0.0; 2] } else { [1.0, at as f64] };
+        let elements =
+            (0..=256).map(|at| Element { position: place(at), ..Element::default() }).collect();
+        let mut star = Assembly { diameter: 1.0, period: None, elements, links: Vec::new() };
+        star.link_within(1e3, |i, _| i == 0);
+        let constants = Constants::new(&Solid::default(), 1.0);
+        let mut elements = Elements::new(&star, &constants, 1.0);
+        let pairs = Pairs::new(&star, &elements, constants.strength);
+        count_links(&mut elements, &pairs, &constants);
+        assert_eq!(elements.response[0], constants.response[6]);
+        assert_eq!(elements.response[1], constants.response[1]);
     }
 }

@@ -1,8 +1,8 @@
 //! What is refused, and what is said of it.
 
-use abrade_adhesive::{AdhesiveError, Numerics, Simulation, Solid};
+use abrade_adhesive::{AdhesiveError, Assembly, Numerics, Simulation, Solid};
 
-use crate::lattice::{block, elastic};
+use crate::lattice::{D, block, elastic};
 
 /// Fails for numbers that reach the passes unchecked, or a message without what was allowed.
 #[test]
@@ -60,6 +60,30 @@ fn impossible_assemblies_are_refused() {
     assembly.elements[5].velocity[1] = f64::INFINITY;
     let error = Simulation::new(&elastic(), &assembly, Numerics::default()).unwrap_err();
     assert_eq!(error, AdhesiveError::Element { element: 5 });
+}
+
+/// Fails for places that are compared without the period, or for links alone, and for a drag below zero that
+/// is taken as none.
+#[test]
+fn elements_at_one_place_and_drags_below_zero_are_refused() {
+    let refused = |change: fn(&mut Assembly)| {
+        let mut assembly = block(4, 4);
+        change(&mut assembly);
+        Simulation::new(&elastic(), &assembly, Numerics::default()).unwrap_err()
+    };
+    let unlinked = refused(|a| {
+        a.links.clear();
+        a.elements[9].position = a.elements[2].position;
+    });
+    assert_eq!(unlinked, AdhesiveError::OnePlace { ends: [2, 9] });
+    let over_the_period = refused(|a| {
+        a.period = Some(8.0 * D);
+        let [x, y] = a.elements[4].position;
+        a.elements[7].position = [x + 8.0 * D, y];
+    });
+    assert_eq!(over_the_period, AdhesiveError::OnePlace { ends: [4, 7] });
+    let pushed = refused(|a| a.elements[3].drag = -1.0);
+    assert_eq!(pushed, AdhesiveError::Element { element: 3 });
 }
 
 /// Fails for motions that no step resolves and that go on as numbers without meaning.
