@@ -22,14 +22,14 @@ pub(crate) fn change(
     let ends = pairs.ends.of(at).map(|end| end as usize);
     let mean = elements.mean[ends[0]] + elements.mean[ends[1]];
     let held = elements.mean_sum[ends[0]] + elements.mean_sum[ends[1]];
-    let before = pair_work(pairs, constants, at, held);
+    let before = pair_work(pairs, constants, at, held) + mean_work(elements, pairs, constants, at);
     match pairs.state[at] {
         LinkState::Linked => fail(elements, pairs, constants, (at, ends), mean),
         LinkState::Adhering => adhere(elements, pairs, constants, (at, ends), mean),
         LinkState::Open => meet(elements, pairs, constants, (at, ends), mean),
         LinkState::Far => {}
     }
-    before - pair_work(pairs, constants, at, held)
+    before - pair_work(pairs, constants, at, held) - mean_work(elements, pairs, constants, at)
 }
 
 /// What the faces of a linked pair hold [J]; `mean` is the sum of both ends' `mean_sum` [Pa].
@@ -49,6 +49,27 @@ fn pair_work(pairs: &Pairs, constants: &Constants, at: usize, mean: f64) -> f64 
     let old_across = across - constants.twice_shear * pairs.shear[at];
     let product = pairs.live[at] * (own * old_own + across * old_across);
     constants.face * constants.diameter * product / (2.0 * constants.twice_shear)
+}
+
+/// What the mean stress of a changing pair's ends takes with it [J]: their energy as it will be when what
+/// faces released is in, by the number of linked faces, less half the work of the step of a linked pair,
+/// which the new stress does.
+fn mean_work(elements: &Elements, pairs: &Pairs, constants: &Constants, at: usize) -> f64 {
+    let ends = pairs.ends.of(at).map(|end| end as usize);
+    let held = |end: usize| {
+        let response = elements.response[end];
+        mean_energy(constants, elements.mean_sum[end] + response * elements.released[end], response)
+    };
+    let mean = ends.iter().map(|end| elements.mean_sum[*end]).sum::<f64>();
+    let half = 0.25 * constants.coupling * mean * pairs.stretch[at];
+    ends.into_iter().map(held).sum::<f64>()
+        - pairs.live[at] * half * constants.face * constants.diameter
+}
+
+/// What the mean stress of an element of `response` [Pa] holds beside its pairs [J],
+/// 1/2 A mean^2 / (3 c_N) of its volume; `mean` is its `mean_sum` [Pa].
+pub(crate) fn mean_energy(constants: &Constants, mean: f64, response: f64) -> f64 {
+    0.5 * constants.coupling * mean * mean / (3.0 * response) * constants.volume
 }
 
 /// Stress that the pair would bear if its faces just touched, pv [Pa].

@@ -229,14 +229,14 @@ impl Simulation {
             let square = e.vx[at] * e.vx[at] + e.vy[at] * e.vy[at];
             0.5 * (mass * square + inertia * e.spin[at] * e.spin[at])
         };
-        // The energy per volume of an element beside its pairs': 1/2 A sigma_mean^2 / (3 c_N), and that
-        // of the elastic strain along z which flow leaves, (sigma_zz - A sigma_mean)^2 / (4 G).
+        // Beside its pairs' an element has that of its mean stress and that of the elastic strain along z
+        // which flow leaves, (sigma_zz - A sigma_mean)^2 / (4 G) of its volume.
         let pressed = |at: usize| {
             let mean = e.mean_sum[at];
-            let square = mean * mean / (3.0 * e.response[at]);
             let along = e.szz[at] - self.constants.coupling * mean;
             let strained = along * along / (2.0 * self.constants.twice_shear);
-            (0.5 * self.constants.coupling * square + strained) * self.constants.volume
+            faces::mean_energy(&self.constants, mean, e.response[at])
+                + strained * self.constants.volume
         };
         let faces = |at: usize| {
             let [i, j] = self.pairs.ends.of(at);

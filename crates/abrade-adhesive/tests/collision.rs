@@ -155,8 +155,9 @@ fn ductile_asperities_slip_and_brittle_ones_break_away() {
         let ledger = collision.simulation().ledger();
         let [mass, _] = collision.simulation().inertia();
         let start = 0.5 * mass * collision.parts().len() as f64;
-        // What an element's mean stress holds for a face that parts is not told: a twentieth.
-        assert!((ledger.balance() - start).abs() < 0.1 * ledger.drive, "{ledger:?}");
+        // What averaged returns do not share is told twice; each outlet that is forgotten takes off more.
+        let residual = (ledger.balance() - start) / ledger.drive;
+        assert!((0.0..0.04).contains(&residual), "{residual}: {ledger:?}");
     }
     // Fails for a count that forgets pairs which are no longer listed.
     let listed = |pairs: Vec<Pair>| pairs.iter().map(|pair| u64::from(pair.breaks)).sum::<u64>();

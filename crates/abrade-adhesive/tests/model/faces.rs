@@ -147,3 +147,17 @@ fn faces_of_long_links_meet_where_they_parted() {
         assert!((met - apart).abs() < 0.01, "{met} for {apart}");
     }
 }
+
+/// Fails for a ledger without what the mean stress of an element holds for a face that parts.
+#[test]
+fn what_a_parting_layer_held_is_told() {
+    for nu in [0.1, 0.3, 0.4] {
+        let solid = Solid { shear_strength: 1e6, poisson: nu, ..elastic() };
+        let (_, simulation) = pulled(&solid, 0.05, 2e-6);
+        assert_eq!(simulation.pairs().filter(|pair| pair.state == LinkState::Open).count(), 20);
+        let ledger = simulation.ledger();
+        println!("{nu}: {ledger:?}");
+        // It began with some 1e-8 J of motion; shear is a gradient of the energy to the first order alone.
+        assert!(ledger.balance().abs() < 0.01 * ledger.drive, "{nu}: {:e}", ledger.balance());
+    }
+}
