@@ -12,7 +12,7 @@ const STEEP: f64 = 1e3;
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Profile {
-    /// One trapezoid in a period.
+    /// One trapezoid in a period. Centres of elements lie half a diameter inside its corners.
     Trapezoid {
         /// Width of the top facet (default 0.5 mm) [m].
         #[serde(default = "top", deserialize_with = "quantity::length")]
@@ -27,7 +27,7 @@ pub enum Profile {
         #[schemars(with = "Quantity")]
         side: f64,
     },
-    /// A line through points, which repeats with the period.
+    /// A line through points, which repeats with the period. Centres of elements lie up to the line.
     Line {
         /// Place along x from 0 to the period, rising, and height above the lowest point of each [m].
         #[serde(deserialize_with = "points")]
