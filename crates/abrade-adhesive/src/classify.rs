@@ -11,8 +11,8 @@ use crate::pairs::Pair;
 const SMALL: f64 = 0.02;
 /// Share of the asperities in small pieces from which on they are ground [-].
 const GROUND: f64 = 0.20;
-/// Ground layers of one element from which on they are ground [-].
-const GROUND_ROWS: f64 = 3.0;
+/// Small pieces that moved per element of the facets from which on they are ground [-].
+const GROUND_PIECES: f64 = 3.0;
 /// Share of an asperity from which on a piece that was torn off is a cleavage, and a breakaway [-].
 const CLEAVED: f64 = 0.05;
 const BROKEN_AWAY: f64 = 0.15;
@@ -60,8 +60,8 @@ pub struct Figures {
     pub ground: f64,
     /// Largest piece that moved as a whole, as a share of one asperity [-].
     pub largest_piece: f64,
-    /// Small pieces that moved, in rows of the facets [-].
-    pub ground_rows: f64,
+    /// Small pieces that moved, of any size, per element of the two facets [-].
+    pub small_pieces: f64,
     /// Share that left its body by two diameters: the volume worn [-].
     pub worn: f64,
     /// Share that moves with the other body at the end [-].
@@ -79,7 +79,7 @@ pub struct Figures {
 impl Figures {
     /// Whether the asperities were ground.
     pub fn is_ground(&self) -> bool {
-        self.ground >= GROUND || self.ground_rows >= GROUND_ROWS
+        self.ground >= GROUND || self.small_pieces >= GROUND_PIECES
     }
 
     /// Whether a large piece came off.
@@ -147,7 +147,7 @@ pub(crate) fn figures(state: &State) -> Figures {
     Figures {
         ground: share(ground(state, small)),
         largest_piece: largest as f64 / (0.5 * count as f64),
-        ground_rows: small_pieces as f64 / (2.0 * state.facet),
+        small_pieces: small_pieces as f64 / (2.0 * state.facet),
         worn: of(&|at| moved[at]),
         transferred: of(&|at| own(at) < -0.5),
         debris: of(&|at| own(at).abs() < 0.5),

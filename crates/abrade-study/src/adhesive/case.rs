@@ -221,7 +221,7 @@ fn read_figures(value: &Value) -> Option<Figures> {
     Some(Figures {
         ground: number("ground")?,
         largest_piece: number("largest_piece")?,
-        ground_rows: number("ground_rows")?,
+        small_pieces: number("small_pieces")?,
         worn: number("worn")?,
         transferred: number("transferred")?,
         debris: number("debris")?,

@@ -36,7 +36,7 @@ pub fn write(map: &Map, out: &Path) -> Result<(), StudyError> {
 fn cases(map: &Map) -> String {
     let mut text =
         "case,strength_ratio,shear_strength_Pa,adhesion_ratio,gap_d,mode,ground,largest_piece,\
-                    ground_rows,worn,transferred,debris,failed,parted,joined,failure\n"
+                    small_pieces,worn,transferred,debris,failed,parted,joined,failure\n"
             .to_owned();
     for (case, made) in &map.cases {
         let _ = write!(
@@ -51,7 +51,7 @@ fn cases(map: &Map) -> String {
                 f.mode().name(),
                 f.ground,
                 f.largest_piece,
-                f.ground_rows,
+                f.small_pieces,
                 f.worn,
                 f.transferred,
                 f.debris,
