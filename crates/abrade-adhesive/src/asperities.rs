@@ -8,12 +8,16 @@ use serde::Deserialize;
 
 use crate::assembly::{Assembly, Element, Hold};
 use crate::error::AdhesiveError;
+use crate::numerics::Numerics;
 use crate::packing::{Packing, Room};
 use crate::profile::Profile;
 use crate::solid::Solid;
 
 /// Elements of a body nearer than this, in diameters, are linked: next neighbours, disordered or not.
 const LINKED: f64 = 1.3;
+
+/// Most places of a lattice that a body may lie on: its elements would fill gigabytes.
+const PLACES: f64 = 1e7;
 
 /// Two bodies and their way past each other. The paper leaves out facet, sides, base, period, speed and
 /// the level that its overlap counts from: those defaults are this program's.
@@ -52,7 +56,8 @@ pub struct Asperities {
     pub travel: Option<f64>,
     /// Drag of the bases in shear waves through the base (default 0.5): ringing of the slabs dies out [-].
     pub base_drag: f64,
-    /// Step in times that a longitudinal wave takes through an element (default 0.5) [-].
+    /// Step in times that a longitudinal wave takes through an element (default 0.5), below
+    /// [`crate::Numerics::limit`] [-].
     pub courant: f64,
     /// Relaxation time of the links' dashpots in the same times (default 0.1) [-].
     pub viscosity: f64,
@@ -60,7 +65,7 @@ pub struct Asperities {
 
 impl Default for Asperities {
     fn default() -> Self {
-        let numerics = crate::Numerics::default();
+        let numerics = Numerics::default();
         Self {
             diameter: 25e-6,
             profile: Profile::default(),
@@ -101,7 +106,6 @@ pub enum Place {
 impl Asperities {
     /// Every value outside its range, with the field it stands in.
     pub fn check(&self) -> Vec<ParameterError> {
-        let numerics = crate::Numerics { courant: self.courant, viscosity: self.viscosity };
         let d = self.diameter;
         let mut found: Vec<ParameterError> =
             ParameterError::positive("diameter", d).into_iter().collect();
@@ -122,12 +126,33 @@ impl Asperities {
             .into_iter()
             .flatten(),
         );
-        found.extend(numerics.check());
+        found.extend(self.numerics().check());
         found.extend(self.packing.check());
         if found.is_empty() {
             found.extend(self.profile.check(d, self.whole_period()));
         }
+        if found.is_empty() {
+            found.extend(self.too_many());
+        }
         found
+    }
+
+    /// A fault if there are more places for elements than a machine holds.
+    fn too_many(&self) -> Option<ParameterError> {
+        let places = self.room().places(&self.packing);
+        let allowed = format!("such that a body has at most {PLACES:e} places, not {places:.1e}");
+        let (field, value) = ("period", self.period);
+        (places > PLACES).then_some(ParameterError { field, value, allowed })
+    }
+
+    /// A fault if the step is not stable in `solid`; both are checked.
+    pub fn unstable(&self, solid: &Solid) -> Option<ParameterError> {
+        self.numerics().unstable(solid, 1.0)
+    }
+
+    /// How time is cut.
+    pub(crate) fn numerics(&self) -> Numerics {
+        Numerics { courant: self.courant, viscosity: self.viscosity }
     }
 
     /// The period in whole diameters [m].

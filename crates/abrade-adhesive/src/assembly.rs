@@ -5,6 +5,9 @@ use abrade::ParameterError;
 use crate::error::AdhesiveError;
 use crate::grid::Grid;
 
+/// Elements nearer than this are at one place, in diameters: what rounding leaves of a distance.
+const ONE_PLACE: f64 = 1e-9;
+
 /// Which motion of an element is prescribed: it keeps that part of its velocity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Hold {
@@ -71,6 +74,26 @@ impl Assembly {
         }
     }
 
+    /// How much stiffer spins may be than in a lattice [-], 1 at least.
+    ///
+    /// Against spins, the links of two ends act with their lengths; the largest sum of those of both
+    /// ends of a link, over those of a lattice, bounds the stiffness (a matrix with a row for each
+    /// link has the same eigenvalues, and none exceeds its largest sum of a row).
+    pub(crate) fn linkage(&self) -> f64 {
+        let length = |link: &Link| {
+            let [i, j] = link.ends.map(|end| self.elements[end as usize].position);
+            let dx = j[0] - i[0];
+            let image = self.period.map_or(0.0, |period| period * (dx / period).round());
+            (dx - image).hypot(j[1] - i[1]) / self.diameter
+        };
+        let mut sums = vec![0.0; self.elements.len()];
+        for link in &self.links {
+            link.ends.iter().for_each(|end| sums[*end as usize] += length(link));
+        }
+        let both = |link: &Link| link.ends.map(|end| sums[end as usize]).iter().sum::<f64>();
+        self.links.iter().map(|link| both(link) / 12.0).fold(1.0, f64::max)
+    }
+
     /// The first fault.
     pub(crate) fn check(&self) -> Result<(), AdhesiveError> {
         if let Some(error) = ParameterError::positive("diameter", self.diameter) {
@@ -85,7 +108,7 @@ impl Assembly {
         let count = self.elements.len();
         let is_fine = |e: &Element| {
             let numbers = [e.position[0], e.position[1], e.velocity[0], e.velocity[1], e.drag];
-            numbers.iter().all(|x| x.is_finite())
+            numbers.iter().all(|x| x.is_finite()) && e.drag >= 0.0
         };
         if let Some(element) = self.elements.iter().position(|e| !is_fine(e)) {
             return Err(AdhesiveError::Element { element });
@@ -95,10 +118,21 @@ impl Assembly {
             if i >= count || j >= count || i == j {
                 return Err(AdhesiveError::Link { link, ends: *ends, elements: count });
             }
-            if self.elements[i].position == self.elements[j].position {
-                return Err(AdhesiveError::Element { element: j });
-            }
         }
-        Ok(())
+        match self.at_one_place() {
+            Some(ends) => Err(AdhesiveError::OnePlace { ends }),
+            None => Ok(()),
+        }
+    }
+
+    /// The first two elements with no distance that gives their pair a direction.
+    fn at_one_place(&self) -> Option<[usize; 2]> {
+        let positions: Vec<[f64; 2]> = self.elements.iter().map(|e| e.position).collect();
+        let grid = Grid::new(&positions, self.period, ONE_PLACE * self.diameter);
+        let mut found = None;
+        for i in 0..positions.len() {
+            grid.each_later(i, positions[i], |j| found = found.or(Some([i, j])));
+        }
+        found
     }
 }

@@ -11,15 +11,15 @@ use crate::pairs::Pair;
 const SMALL: f64 = 0.02;
 /// Share of the asperities in small pieces from which on they are ground [-].
 const GROUND: f64 = 0.20;
-/// Ground layers of one element from which on they are ground [-].
-const GROUND_ROWS: f64 = 3.0;
+/// Small pieces that moved per element of the facets from which on they are ground [-].
+const GROUND_PIECES: f64 = 3.0;
 /// Share of an asperity from which on a piece that was torn off is a cleavage, and a breakaway [-].
 const CLEAVED: f64 = 0.05;
 const BROKEN_AWAY: f64 = 0.15;
 /// Elements that left their body by this many diameters have moved [-].
 pub(crate) const MOVED: f64 = 2.0;
-/// Pairs within this many diameters are beside each other [-].
-const BESIDE: f64 = 1.2;
+/// Linked elements are beside each other up to this many diameters more than at the start [-].
+const BESIDE: f64 = 0.2;
 
 /// What became of the asperities, in the paper's words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,8 +60,8 @@ pub struct Figures {
     pub ground: f64,
     /// Largest piece that moved as a whole, as a share of one asperity [-].
     pub largest_piece: f64,
-    /// Small pieces that moved, in rows of the facets [-].
-    pub ground_rows: f64,
+    /// Small pieces that moved, of any size, per element of the two facets [-].
+    pub small_pieces: f64,
     /// Share that left its body by two diameters: the volume worn [-].
     pub worn: f64,
     /// Share that moves with the other body at the end [-].
@@ -79,7 +79,7 @@ pub struct Figures {
 impl Figures {
     /// Whether the asperities were ground.
     pub fn is_ground(&self) -> bool {
-        self.ground >= GROUND || self.ground_rows >= GROUND_ROWS
+        self.ground >= GROUND || self.small_pieces >= GROUND_PIECES
     }
 
     /// Whether a large piece came off.
@@ -106,12 +106,26 @@ pub(crate) struct State<'a> {
     pub(crate) parts: &'a [Part],
     pub(crate) pairs: &'a [Pair],
     pub(crate) diameter: f64,
+    /// Length after which everything repeats along x, and positions at the start [m].
+    pub(crate) period: f64,
+    pub(crate) start: &'a [[f64; 2]],
     /// Elements of a facet.
     pub(crate) facet: f64,
     /// How far each element left its body [m].
     pub(crate) left: &'a [f64],
     /// Velocity along x at the end over that of the lower body [-].
     pub(crate) pace: &'a [f64],
+}
+
+impl State<'_> {
+    /// Whether the ends of a pair that was linked at the start are about as near as then: the links of
+    /// a body are not all a diameter long.
+    fn are_beside(&self, pair: &Pair) -> bool {
+        let [i, j] = pair.ends.map(|end| self.start[end as usize]);
+        let dx = j[0] - i[0];
+        let dx = dx - self.period * (dx / self.period).round();
+        pair.distance <= dx.hypot(j[1] - i[1]) + BESIDE * self.diameter
+    }
 }
 
 /// The figures of a state.
@@ -128,12 +142,12 @@ pub(crate) fn figures(state: &State) -> Figures {
     // Lower bodies go at 1, upper ones at -1.
     let own = |at: usize| if state.parts[at].is_upper { -state.pace[at] } else { state.pace[at] };
     let (largest, small_pieces) = pieces(state, &moved, small);
-    let apart = |pair: &&Pair| pair.distance > BESIDE * state.diameter;
+    let apart = |pair: &&Pair| !state.are_beside(pair);
     let links = original().count().max(1) as f64;
     Figures {
         ground: share(ground(state, small)),
         largest_piece: largest as f64 / (0.5 * count as f64),
-        ground_rows: small_pieces as f64 / (2.0 * state.facet),
+        small_pieces: small_pieces as f64 / (2.0 * state.facet),
         worn: of(&|at| moved[at]),
         transferred: of(&|at| own(at) < -0.5),
         debris: of(&|at| own(at).abs() < 0.5),
@@ -165,7 +179,7 @@ fn pieces(state: &State, moved: &[bool], small: usize) -> (usize, usize) {
     let mut pieces = Components::new(state.parts.len());
     let beside = |pair: &&Pair| {
         let [i, j] = pair.ends.map(|end| moved[end as usize]);
-        pair.is_original && i && j && pair.distance < BESIDE * state.diameter
+        pair.is_original && i && j && state.are_beside(pair)
     };
     for pair in state.pairs.iter().filter(beside) {
         pieces.join(pair.ends);

@@ -4,7 +4,7 @@ use crate::asperities::{Asperities, Part, Place};
 use crate::classify::{self, Figures, State};
 use crate::error::AdhesiveError;
 use crate::pairs::Pair;
-use crate::simulation::{Numerics, Simulation};
+use crate::simulation::Simulation;
 use crate::solid::Solid;
 
 /// Share of the travel at whose end the pace of the elements is taken.
@@ -18,6 +18,7 @@ pub struct Collision {
     speed: f64,
     travel: f64,
     diameter: f64,
+    period: f64,
     facet: f64,
     /// Positions at the start, and where the last part of the travel began, with the time there [m, s].
     start: Vec<[f64; 2]>,
@@ -33,14 +34,13 @@ impl Collision {
     /// The bodies of a solid at the start.
     ///
     /// # Errors
-    /// A parameter is out of range, or the bodies overlap.
+    /// A parameter is out of range, the step is not stable in the solid, or the bodies overlap.
     pub fn new(solid: &Solid, asperities: &Asperities) -> Result<Self, AdhesiveError> {
         if let Some(error) = solid.check().into_iter().chain(asperities.check()).next() {
             return Err(error.into());
         }
         let (assembly, parts) = asperities.assemble(solid)?;
-        let numerics = Numerics { courant: asperities.courant, viscosity: asperities.viscosity };
-        let simulation = Simulation::new(solid, &assembly, numerics)?;
+        let simulation = Simulation::new(solid, &assembly, asperities.numerics())?;
         let start: Vec<[f64; 2]> = assembly.elements.iter().map(|e| e.position).collect();
         let lower = Part { is_upper: false, place: Place::Rigid };
         let period = asperities.whole_period();
@@ -53,6 +53,7 @@ impl Collision {
             speed: asperities.speed,
             travel: asperities.whole_travel(),
             diameter: asperities.diameter,
+            period,
             facet: asperities.profile.facing(period) / asperities.diameter,
             start,
             force: [0.0; 2],
@@ -123,6 +124,8 @@ impl Collision {
             parts: &self.parts,
             pairs: &pairs,
             diameter: self.diameter,
+            period: self.period,
+            start: &self.start,
             facet: self.facet,
             left: &left,
             pace: &pace,

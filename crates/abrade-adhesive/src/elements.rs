@@ -32,7 +32,7 @@ pub(crate) struct Elements {
     /// First elements of the blocks with a drag.
     pub(crate) dragged: Vec<u32>,
     /// Number of linked faces, and the response that goes with it [Pa].
-    pub(crate) linked: Vec<u8>,
+    pub(crate) linked: Vec<u32>,
     pub(crate) response: Column,
     /// Equivalent plastic strain [-].
     pub(crate) plastic_strain: Column,
@@ -123,7 +123,7 @@ impl Elements {
             self.mobility_x[at] = free(hold.x, constants.mass);
             self.mobility_y[at] = free(hold.y, constants.mass);
             self.mobility_spin[at] = free(hold.spin, constants.inertia);
-            let drag = (element.drag * step).clamp(0.0, 1.0);
+            let drag = (element.drag * step).min(1.0);
             self.drag[0][at] = if hold.x { 0.0 } else { drag };
             self.drag[1][at] = if hold.y { 0.0 } else { drag };
             if hold.x || hold.y {

@@ -19,11 +19,17 @@ pub enum AdhesiveError {
         /// Number of elements.
         elements: usize,
     },
-    /// A position or velocity is not a finite number, or a link has no length.
-    #[error("element {element} has no finite place and velocity of its own")]
+    /// A position, velocity or drag is not a finite number, or the drag is below zero.
+    #[error("element {element} has no finite place, velocity and drag of at least 0")]
     Element {
         /// Index of the element.
         element: usize,
+    },
+    /// Two elements are at one place, over the period or not.
+    #[error("elements {} and {} are at one place", ends[0], ends[1])]
+    OnePlace {
+        /// Indices of the elements.
+        ends: [usize; 2],
     },
     /// The two bodies overlap before they move.
     #[error("the bodies overlap at the start; `gap` is {gap}, must be larger")]

@@ -5,8 +5,11 @@ use crate::elements::Elements;
 use crate::grid::Grid;
 use crate::pairs::{LinkState, Met, Pairs};
 
-/// Up to where pairs are listed, in diameters: faces meet within 1.05, the rest is for motion.
-const CUT: f64 = 1.4;
+/// How far beyond the distance at which its faces touch a pair is listed, in diameters: faces that bear
+/// stress meet within 0.05 of it, the rest is for motion.
+const REACH: f64 = 0.4;
+/// The same for elements that were never linked, whose faces touch at a diameter.
+const CUT: f64 = 1.0 + REACH;
 /// Room for motion until the next list, in diameters.
 pub(crate) const ROOM: f64 = 0.35;
 
@@ -61,7 +64,7 @@ impl Neighbours {
 
     /// Lists the pairs anew: original ones are near or far, others come and go. What is linked stays.
     pub(crate) fn list(&mut self, elements: &Elements, pairs: &mut Pairs) {
-        self.judge_original(pairs);
+        self.judge_original(elements, pairs);
         self.met.clear();
         self.met.extend((pairs.original..pairs.len()).map(|at| pairs.met(at)));
         pairs.take_off_met();
@@ -86,16 +89,21 @@ impl Neighbours {
         pairs.pad(self.diameter, elements);
     }
 
-    fn judge_original(&self, pairs: &mut Pairs) {
-        let cut = CUT * self.diameter;
+    /// Original pairs are far where their faces cannot meet before the next list. A far one may meet at
+    /// another image of its end than it parted from: it is measured to the nearest.
+    fn judge_original(&self, elements: &Elements, pairs: &mut Pairs) {
         for at in 0..pairs.original {
             // Not a pair of ghosts.
             let is_pair = (pairs.ends.of(at)[0] as usize) < self.positions.len();
+            if pairs.faces[at].state == LinkState::Far && is_pair {
+                pairs.measure(at, elements, self.period);
+            }
             let distance = pairs.line(at).distance;
-            let state = &mut pairs.faces[at].state;
-            match state {
-                LinkState::Open if distance > cut => *state = LinkState::Far,
-                LinkState::Far if distance <= cut && is_pair => *state = LinkState::Open,
+            let face = &mut pairs.faces[at];
+            let is_near = distance <= face.contact + REACH * self.diameter;
+            match face.state {
+                LinkState::Open if !is_near => face.state = LinkState::Far,
+                LinkState::Far if is_near && is_pair => face.state = LinkState::Open,
                 _ => {}
             }
         }

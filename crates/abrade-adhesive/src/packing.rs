@@ -9,6 +9,9 @@ use serde::Deserialize;
 
 use crate::profile::Profile;
 
+/// Places that differ by less are one, in diameters: what sums of rounded lengths leave.
+const SLACK: f64 = 1e-6;
+
 /// How the elements lie.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -77,9 +80,22 @@ impl Room<'_> {
 
     /// Whether the body holds a centre; its lowest edge is half a row below the lowest regular centres.
     fn holds(&self, [x, y]: [f64; 2]) -> bool {
-        let slack = 1e-6 * self.diameter;
+        let slack = SLACK * self.diameter;
         let depth = self.profile.depth(x, self.period, 0.5 * self.diameter);
         y > -0.5 * self.row_height() && (y < self.base_top() || depth <= self.top() - y + slack)
+    }
+
+    /// Places of the lattice that [`Room::fill`] looks at.
+    pub(crate) fn places(&self, packing: &Packing) -> f64 {
+        let rows = (self.base_rows + self.asperity_rows) as f64;
+        match packing {
+            Packing::Regular | Packing::Disordered { .. } => rows * self.period / self.diameter,
+            // A square about the middle of the surface that holds the body however it is turned.
+            Packing::Rotated { .. } => {
+                let reach = self.period.hypot(rows * self.row_height());
+                4.0 * reach * reach / (self.row_height() * self.diameter)
+            }
+        }
     }
 
     /// The centres of the elements, row after row of the lattice. `draw` tells bodies of one seed apart.
@@ -98,18 +114,19 @@ impl Room<'_> {
         }
     }
 
-    /// Rows along the surface; the facet of a trapezoid ends with an element at both sides.
+    /// Rows along the surface; the highest has as many elements as the facet of a trapezoid has room
+    /// for, evenly about its middle.
     fn rows(&self) -> Vec<[f64; 2]> {
         let d = self.diameter;
         let columns = (self.period / d).round() as usize;
         let rows = self.base_rows + self.asperity_rows;
-        let in_facet = (self.profile.facing(self.period) / d).round();
+        let in_facet = (self.profile.facing(self.period) / d + SLACK).floor();
         let mut centres = Vec::new();
         for row in 0..rows {
             let shift = 0.5 * (in_facet - 1.0) + 0.5 * ((rows - 1 - row) % 2) as f64;
             let first = (0.5 * self.period / d + shift).rem_euclid(1.0);
             // A column that falls onto the period's end is the one at its beginning.
-            let first = if first > 1.0 - 1e-6 { 0.0 } else { first };
+            let first = if first > 1.0 - SLACK { 0.0 } else { first };
             let y = row as f64 * self.row_height();
             let row = (0..columns).map(|column| [(first + column as f64) * d, y]);
             centres.extend(row.filter(|centre| self.holds(*centre)));

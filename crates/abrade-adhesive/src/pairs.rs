@@ -32,7 +32,7 @@ pub struct Pair {
     pub distance: f64,
     /// Normal stress, tension above zero, and tangential stress of the face [Pa].
     pub stress: [f64; 2],
-    /// How often its link failed.
+    /// In how many steps its link failed.
     pub breaks: u32,
     /// Whether it was linked at the start.
     pub is_original: bool,
@@ -44,7 +44,7 @@ pub(crate) struct Face {
     pub(crate) state: LinkState,
     /// Whether a link may fail.
     pub(crate) can_break: bool,
-    /// How often the link failed.
+    /// In how many steps the link failed.
     pub(crate) breaks: u32,
     /// Distance at which the faces would just touch without stress [m].
     pub(crate) contact: f64,
@@ -67,6 +67,8 @@ pub(crate) struct Pairs {
     /// What every step takes of them, by fours, and what changes take.
     pub(crate) blocks: Vec<Block>,
     pub(crate) faces: Vec<Face>,
+    /// In how many steps links failed, of all pairs together, with those that are no longer listed.
+    pub(crate) failures: u64,
 }
 
 impl Pairs {
@@ -82,6 +84,7 @@ impl Pairs {
             original: 0,
             blocks: Vec::new(),
             faces: Vec::new(),
+            failures: 0,
         };
         for link in runs.iter().flatten() {
             pairs.push(diameter, elements, link.ends, period);
@@ -146,6 +149,16 @@ impl Pairs {
         *self.last_face() = met.face;
         let lane = (self.len() - 1) % LANES;
         self.last_block().put(lane, &met.line);
+    }
+
+    /// Measures pair `at` anew to the nearest image of its second end, if that is another than before.
+    pub(crate) fn measure(&mut self, at: usize, elements: &Elements, period: Option<f64>) {
+        let found = Line::new(elements, self.ends.of(at), period);
+        let Line { direction, distance, image, .. } = found;
+        let line = self.line(at);
+        if image != line.image {
+            self.blocks[at / LANES].put(at % LANES, &Line { direction, distance, image, ..line });
+        }
     }
 
     /// Takes off all pairs that were not linked at the start.

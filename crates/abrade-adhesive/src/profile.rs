@@ -5,11 +5,14 @@ use abrade::quantity::{self, Quantity};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+/// Height of the highest asperities, in periods.
+const STEEP: f64 = 1e3;
+
 /// Outline of the asperities of a body.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Profile {
-    /// One trapezoid in a period.
+    /// One trapezoid in a period. Centres of elements lie half a diameter inside its corners.
     Trapezoid {
         /// Width of the top facet (default 0.5 mm) [m].
         #[serde(default = "top", deserialize_with = "quantity::length")]
@@ -24,7 +27,7 @@ pub enum Profile {
         #[schemars(with = "Quantity")]
         side: f64,
     },
-    /// A line through points, which repeats with the period.
+    /// A line through points, which repeats with the period. Centres of elements lie up to the line.
     Line {
         /// Place along x from 0 to the period, rising, and height above the lowest point of each [m].
         #[serde(deserialize_with = "points")]
@@ -70,7 +73,7 @@ impl Profile {
                 };
                 vec![
                     ParameterError::within("top", *top, diameter, period),
-                    ParameterError::within("height", *height, diameter, 1e3 * period),
+                    ParameterError::within("height", *height, diameter, STEEP * period),
                     // A facet of the side that an element does not fill tells nothing of the angle.
                     ParameterError::within("side", *side, 0.05, std::f64::consts::FRAC_PI_2),
                     (!fits).then_some(wide),
@@ -83,11 +86,13 @@ impl Profile {
                 let rises = points.windows(2).all(|pair| pair[0][0] < pair[1][0]);
                 let inside = points.iter().all(|p| (0.0..=period).contains(&p[0]));
                 let finite = points.iter().flatten().all(|x| x.is_finite());
-                let count = points.len() as f64;
+                let (count, height, most) = (points.len() as f64, self.height(), STEEP * period);
+                let steep = format!("such that the highest is at most {most:e} above the lowest");
                 vec![
                     if points.len() < 2 { refuse(count, "two or more") } else { None },
                     if rises && finite { None } else { refuse(count, "finite, with rising x") },
                     if inside { None } else { refuse(count, "between 0 and the period along x") },
+                    if height <= most { None } else { refuse(height, &steep) },
                 ]
             }
         };
@@ -167,7 +172,7 @@ mod tests {
         assert!((line.depth(-0.1, 1.0, 0.0) - 1.0).abs() < 1e-12);
     }
 
-    /// Fails for a foot that does not fit, or a height below that of an element.
+    /// Fails for a foot that does not fit, or a height below that of an element or without a bound.
     #[test]
     fn impossible_outlines_are_named() {
         let of = |profile: Profile| {
@@ -178,5 +183,6 @@ mod tests {
         assert_eq!(of(Profile::Trapezoid { top, height, side: 0.6 }), ["top"]);
         assert_eq!(of(Profile::Trapezoid { top, height: 0.5, side }), ["height"]);
         assert_eq!(of(Profile::Line { points: vec![[1.0, 0.0], [0.5, 1.0]] }), ["points"]);
+        assert_eq!(of(Profile::Line { points: vec![[0.0, 0.0], [5.0, 1e300]] }), ["points"]);
     }
 }

@@ -38,6 +38,7 @@ pub(crate) fn settle(
             released: &mut elements.released,
             linked: &mut elements.linked,
             response: &mut elements.response,
+            failures: &mut pairs.failures,
         },
         pairs: &mut pairs.faces,
         released: 0.0,

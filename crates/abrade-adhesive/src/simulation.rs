@@ -1,7 +1,5 @@
 //! The motion of an assembly: one step is a kick, a drift, the passes over pairs and elements, a kick.
 
-use abrade::ParameterError;
-
 use crate::assembly::Assembly;
 use crate::block::Line;
 use crate::elastic;
@@ -14,6 +12,7 @@ use crate::lanes::Sum;
 use crate::ledger::Ledger;
 use crate::motion;
 use crate::neighbours::{Neighbours, ROOM};
+use crate::numerics::Numerics;
 use crate::pairs::{Pair, Pairs};
 use crate::settle;
 use crate::solid::{Constants, Solid};
@@ -25,33 +24,6 @@ const LOOK: f64 = 20.0;
 const STRIDE: f64 = 0.5 * ROOM;
 /// Share of the most steps to the next look that is too few: a list gives the most again.
 const SHORT: f64 = 0.25;
-
-/// How finely time is cut, and how much the links dampen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Numerics {
-    /// Step, in times that a longitudinal wave takes through an element [-]. Stable to 0.65.
-    pub courant: f64,
-    /// Relaxation time of the links' dashpots, in the same times [-].
-    pub viscosity: f64,
-}
-
-impl Default for Numerics {
-    fn default() -> Self {
-        Self { courant: 0.5, viscosity: 0.1 }
-    }
-}
-
-impl Numerics {
-    /// Every value outside its range, with the field it stands in.
-    pub fn check(&self) -> Vec<ParameterError> {
-        let found = [
-            ParameterError::positive("courant", self.courant),
-            ParameterError::within("courant", self.courant, 0.0, 1.0),
-            ParameterError::within("viscosity", self.viscosity, 0.0, 1.0),
-        ];
-        found.into_iter().flatten().take(1).collect()
-    }
-}
 
 /// An assembly in motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,7 +45,8 @@ impl Simulation {
     /// The assembly of a solid at its start.
     ///
     /// # Errors
-    /// A parameter is out of range, or a link or element of the assembly is impossible.
+    /// A parameter is out of range, the step is not stable in the solid, or a link or element of the
+    /// assembly is impossible.
     pub fn new(
         solid: &Solid,
         assembly: &Assembly,
@@ -83,6 +56,14 @@ impl Simulation {
             return Err(error.into());
         }
         assembly.check()?;
+        match numerics.unstable(solid, assembly.linkage()) {
+            Some(error) => Err(error.into()),
+            None => Ok(Self::begin(solid, assembly, numerics)),
+        }
+    }
+
+    /// The assembly at its start, with parameters that are checked.
+    pub(crate) fn begin(solid: &Solid, assembly: &Assembly, numerics: Numerics) -> Self {
         let diameter = assembly.diameter;
         let constants = Constants::new(solid, diameter);
         let wave_time = diameter / solid.longitudinal_speed();
@@ -94,7 +75,7 @@ impl Simulation {
         faces::count_links(&mut elements, &pairs, &constants);
         let viscosity = constants.twice_shear * numerics.viscosity / numerics.courant;
         let sums = Ledger::default();
-        Ok(Self {
+        Self {
             constants,
             step,
             viscosity,
@@ -104,7 +85,7 @@ impl Simulation {
             pairs,
             neighbours,
             sums,
-        })
+        }
     }
 
     /// Goes on by one step.
@@ -142,6 +123,7 @@ impl Simulation {
             let allowed = room / (2.0 * self.step);
             return Err(AdhesiveError::TooFast { time: self.time(), element, speed, allowed });
         }
+        self.refuse_spin()?;
         let most = (room / stride).floor().clamp(1.0, LOOK);
         let left = (room - self.neighbours.moved(&self.elements)) / stride;
         let mut steps = left.floor().min(most);
@@ -151,6 +133,22 @@ impl Simulation {
         }
         self.next_look = self.steps + steps as u64;
         Ok(())
+    }
+
+    /// Refuses spins whose faces move as far as no element may: that is a step that is not stable.
+    fn refuse_spin(&self) -> Result<(), AdhesiveError> {
+        let radius = 0.5 * self.constants.diameter;
+        let allowed = STRIDE * self.constants.diameter / (2.0 * self.step);
+        let spins = &self.elements.spin[..self.elements.count];
+        // A spin that is not a number is too fast, too.
+        let is_fine = |spin: &f64| spin.abs() * radius <= allowed;
+        match spins.iter().position(|spin| !is_fine(spin)) {
+            Some(element) => {
+                let (time, speed) = (self.time(), spins[element].abs() * radius);
+                Err(AdhesiveError::TooFast { time, element, speed, allowed })
+            }
+            None => Ok(()),
+        }
     }
 
     /// Time since the start [s].
@@ -222,6 +220,12 @@ impl Simulation {
         })
     }
 
+    /// Failures of links so far, also of pairs that are no longer within reach. A link that slips
+    /// fails in every step that asks more of it than it bears: this counts steps of links.
+    pub fn failures(&self) -> u64 {
+        self.pairs.failures
+    }
+
     /// Where the energy is and where it went.
     pub fn ledger(&self) -> Ledger {
         let e = &self.elements;
@@ -230,14 +234,14 @@ impl Simulation {
             let square = e.vx[at] * e.vx[at] + e.vy[at] * e.vy[at];
             0.5 * (mass * square + inertia * e.spin[at] * e.spin[at])
         };
-        // The energy per volume of an element beside its pairs': 1/2 A sigma_mean^2 / (3 c_N), and that
-        // of the elastic strain along z which flow leaves, (sigma_zz - A sigma_mean)^2 / (4 G).
+        // Beside its pairs' an element has that of its mean stress and that of the elastic strain along z
+        // which flow leaves, (sigma_zz - A sigma_mean)^2 / (4 G) of its volume.
         let pressed = |at: usize| {
             let mean = e.mean_sum[at];
-            let square = mean * mean / (3.0 * e.response[at]);
             let along = e.szz[at] - self.constants.coupling * mean;
             let strained = along * along / (2.0 * self.constants.twice_shear);
-            (0.5 * self.constants.coupling * square + strained) * self.constants.volume
+            faces::mean_energy(&self.constants, mean, e.response[at])
+                + strained * self.constants.volume
         };
         let faces = |(at, line): (usize, Line)| {
             let [i, j] = self.pairs.ends.of(at);

@@ -215,7 +215,7 @@ impl Constants {
     }
 
     /// Response of an element with `linked` linked faces; beyond six, that of six.
-    pub(crate) fn response_of(&self, linked: u8) -> f64 {
-        self.response[usize::from(linked).min(6)]
+    pub(crate) fn response_of(&self, linked: u32) -> f64 {
+        self.response[linked.min(6) as usize]
     }
 }

@@ -1,7 +1,10 @@
 //! Asperities that collide: what they are made of, and what becomes of them without a threshold made for
 //! the case.
 
-use abrade_adhesive::{AdhesiveError, Asperities, Collision, Mode, Packing, Place, Profile, Solid};
+use abrade_adhesive::{
+    AdhesiveError, Asperities, Collision, Mode, Numerics, Packing, Pair, Part, Place, Profile,
+    Solid,
+};
 
 fn collide(solid: Solid, asperities: &Asperities) -> Collision {
     let mut collision = Collision::new(&solid, asperities).unwrap();
@@ -27,46 +30,129 @@ fn the_reference_bodies_have_their_elements() {
     assert!((10_300..10_600).contains(&links), "{links}");
 }
 
-/// Fails for bodies that are not each other turned by half a turn, and for forces that do not balance
-/// while nothing touches.
+/// Fails for an upper body that is mirrored or moved where it should be turned.
+#[test]
+fn the_upper_body_is_the_lower_turned_by_half_a_turn() {
+    for packing in [Packing::Regular, Packing::Rotated { angle: 15f64.to_radians() }] {
+        let asperities = Asperities { packing, overlap: -0.9, ..Asperities::default() };
+        let collision = Collision::new(&solid(1.0, 0.0), &asperities).unwrap();
+        let half = collision.parts().len() / 2;
+        let place = |at: usize| collision.simulation().position(at);
+        // Half a turn about the point in the middle takes x to 2 x_0 - x.
+        let sum = |at: usize| [0, 1].map(|axis| place(at)[axis] + place(at + half)[axis]);
+        for at in 0..half {
+            assert_eq!([at, at + half].map(|at| collision.parts()[at].is_upper), [false, true]);
+            assert_eq!(collision.parts()[at].place, collision.parts()[at + half].place);
+            let off = [0, 1].map(|axis| (sum(at)[axis] - sum(0)[axis]).abs());
+            assert!(off[0].max(off[1]) < 1e-9 * 25e-6, "{packing:?} {at}: {off:?}");
+        }
+        // From the middle of the lower facet: the corners pass 1.2 d apart, the rows 1.9 d.
+        let [x, y] = sum(0);
+        let rows = 22.0 * 3f64.sqrt() / 2.0 + 12.0 * 3f64.sqrt() / 2.0;
+        assert!((x - (2.25e-3 + 0.5e-3 + 1.2 * 25e-6)).abs() < 1e-12, "{packing:?}: {x}");
+        assert!((y / 25e-6 - 2.0 * rows - 1.9).abs() < 1e-9, "{packing:?}: {y}");
+    }
+}
+
+/// Fails for forces that do not balance while nothing touches, and for links that count as parted because they are long.
 #[test]
 fn bodies_that_do_not_touch_feel_nothing() {
     let far = Asperities { overlap: -0.9, travel: Some(50e-6), ..Asperities::default() };
     for packing in [
         Packing::Regular,
         Packing::Rotated { angle: 15f64.to_radians() },
-        Packing::Disordered { amplitude: 0.1, seed: 3 },
+        Packing::Disordered { amplitude: 0.15, seed: 3 },
     ] {
         let asperities = Asperities { packing, ..far.clone() };
         let collision = collide(solid(1.0, 0.0), &asperities);
         let figures = collision.figures();
         assert_eq!(figures.failed, 0.0, "{packing:?}");
         assert!(collision.mean_load().iter().all(|force| force.abs() < 1e-6), "{packing:?}");
+        assert_eq!(figures.parted, 0.0, "{packing:?}");
         let elements = collision.parts().len() as f64;
         assert!((elements / 3586.0 - 1.0).abs() < 0.03, "{packing:?}: {elements}");
     }
 }
 
-/// Fails for an outline from points that is not that of the trapezoid through them.
+/// Fails for steps that let spins run away, which ground bodies that never met: a limit without
+/// Poisson's ratio or the dashpots.
 #[test]
-fn a_line_through_the_corners_is_the_trapezoid() {
+fn idle_bodies_stay_whole_at_any_step_that_is_let_through() {
+    for poisson in [0.0, 0.1, 0.2, 0.3, 0.45] {
+        for viscosity in [0.0, 0.1, 0.4] {
+            let limit = Numerics::limit(viscosity, poisson);
+            let solid = Solid { poisson, ..solid(1.0, 0.4) };
+            let of = |courant: f64| Asperities {
+                overlap: -0.9,
+                travel: Some(30e-6),
+                courant,
+                viscosity,
+                ..Asperities::default()
+            };
+            let figures = collide(solid, &of(0.97 * limit.min(1.0))).figures();
+            assert_eq!(figures.failed, 0.0, "{poisson} {viscosity}");
+            let error = Collision::new(&solid, &of(limit)).unwrap_err();
+            let AdhesiveError::Parameter(error) = error else { panic!("{error}") };
+            assert_eq!(error.field, "courant", "{poisson} {viscosity}");
+        }
+    }
+}
+
+/// Fails for an outline from points that is not that of the trapezoid through them, by a row or a column.
+/// Centres lie on a line, and half a diameter inside the corners of a trapezoid.
+#[test]
+fn a_line_through_the_outermost_centres_is_the_trapezoid() {
     let of = |profile: Profile, gap: f64| {
         let asperities = Asperities { profile, gap, ..Asperities::default() };
         let collision = Collision::new(&solid(1.0, 0.0), &asperities).unwrap();
-        collision.parts().iter().filter(|part| part.place == Place::Asperity).count() as f64
+        collision.parts().iter().filter(|part| part.place == Place::Asperity).count()
     };
-    let foot = 0.5e-3 / 3f64.sqrt();
-    let middle = 1.125e-3;
+    let (foot, middle, half) = (0.5e-3 / 3f64.sqrt(), 1.125e-3, 9.5 * 25e-6);
     // The gap of a line counts from summit to summit, the middle of the facet being the first such point.
     let points = vec![
-        [middle - 0.25e-3 - foot, 0.0],
-        [middle - 0.25e-3, 0.5e-3],
-        [middle + 0.25e-3, 0.5e-3],
-        [middle + 0.25e-3 + foot, 0.0],
+        [middle - half - foot, 0.0],
+        [middle - half, 0.5e-3],
+        [middle + half, 0.5e-3],
+        [middle + half + foot, 0.0],
     ];
-    let line = of(Profile::Line { points }, 25.0);
-    let trapezoid = of(Profile::default(), 1.2);
-    assert!((line / trapezoid - 1.0).abs() < 0.1, "{line} for {trapezoid}");
+    assert_eq!(of(Profile::Line { points }, 25.0), of(Profile::default(), 1.2));
+}
+
+/// Fails for a facet whose elements are counted by rounding while its width cuts them: the wider one would
+/// have fewer.
+#[test]
+fn a_wider_facet_has_no_fewer_elements() {
+    let elements = |width: f64| {
+        let side = 90f64.to_radians();
+        let profile = Profile::Trapezoid { top: width * 25e-6, height: 0.5e-3, side };
+        let bodies = Asperities { profile, ..Asperities::default() };
+        let collision = Collision::new(&solid(1.0, 0.0), &bodies).unwrap();
+        let asperity = |part: &&Part| part.place == Place::Asperity;
+        collision.parts().iter().filter(asperity).count() / 2
+    };
+    // 23 rows: 12 of the facet's whole elements, between them 11 of one less.
+    for (width, whole) in [(20.0, 20), (20.4, 20), (20.6, 20), (20.9, 20), (21.0, 21), (21.3, 21)] {
+        assert_eq!(elements(width), 12 * whole + 11 * (whole - 1), "{width}");
+    }
+}
+
+/// Fails for bodies whose elements no machine holds, which would be made all the same.
+#[test]
+fn bodies_of_too_many_elements_are_refused() {
+    let refused = |asperities: Asperities| {
+        let fields = asperities.check().into_iter().map(|error| error.field).collect::<Vec<_>>();
+        fields.concat()
+    };
+    let line = |height: f64| Profile::Line { points: vec![[0.0, 0.0], [1e-3, height]] };
+    let usual = Asperities::default;
+    assert_eq!(refused(Asperities { profile: line(1e-3), ..usual() }), "");
+    assert_eq!(refused(Asperities { profile: line(1e4), ..usual() }), "points");
+    assert_eq!(refused(Asperities { profile: line(2.2), period: 2.25e-3, ..usual() }), "");
+    let long = Asperities { period: 2.4, base: 2e-3, ..usual() };
+    assert_eq!(refused(long.clone()), "period");
+    let turned = Packing::Rotated { angle: 0.3 };
+    assert_eq!(refused(Asperities { period: 0.1, packing: turned, ..usual() }), "period");
+    assert_eq!(refused(Asperities { period: 0.1, ..usual() }), "");
 }
 
 /// Fails for bodies that start inside each other, and run all the same.
@@ -90,9 +176,14 @@ fn ductile_asperities_slip_and_brittle_ones_break_away() {
         let ledger = collision.simulation().ledger();
         let [mass, _] = collision.simulation().inertia();
         let start = 0.5 * mass * collision.parts().len() as f64;
-        // What an element's mean stress holds for a face that parts is not told: a twentieth.
-        assert!((ledger.balance() - start).abs() < 0.1 * ledger.drive, "{ledger:?}");
+        // What averaged returns do not share is told twice; each outlet that is forgotten takes off more.
+        let residual = (ledger.balance() - start) / ledger.drive;
+        assert!((0.0..0.04).contains(&residual), "{residual}: {ledger:?}");
     }
+    // Fails for a count that forgets pairs which are no longer listed.
+    let listed = |pairs: Vec<Pair>| pairs.iter().map(|pair| u64::from(pair.breaks)).sum::<u64>();
+    let counted = breakaway.simulation().failures();
+    assert!(counted > listed(breakaway.simulation().pairs().collect()), "{counted}");
     assert!(slipping.figures().worn < 0.05 && breakaway.figures().worn > 0.15);
 }
 

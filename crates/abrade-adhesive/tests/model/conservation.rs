@@ -1,6 +1,8 @@
 //! Energy, momentum, the ledger, and the bits.
 
-use abrade_adhesive::{Assembly, Numerics, Simulation, Solid};
+use abrade_adhesive::{
+    Asperities, Assembly, Collision, LinkState, Numerics, Pair, Simulation, Solid,
+};
 
 use crate::lattice::{D, block, elastic};
 
@@ -71,18 +73,16 @@ fn energy_errs_with_the_square_of_the_step_and_momenta_are_kept() {
     }
 }
 
-/// Fails for a limit of the step that is not the one stated.
+/// Fails for a limit of the step that is not the one stated: 0.695 without dashpots.
 #[test]
-fn steps_are_stable_to_0_65_and_not_to_0_70() {
+fn steps_are_stable_to_0_65_and_refused_at_0_70() {
     assert!(run(0.5, 0.65, 5_000)[0] < 0.1);
     let numerics = Numerics { courant: 0.70, viscosity: 0.0 };
-    let mut simulation = Simulation::new(&elastic(), &shaken(0.5), numerics).unwrap();
-    let start = simulation.ledger().balance();
-    let ended = (0..5_000).try_for_each(|_| simulation.step());
-    assert!(ended.is_err() || simulation.ledger().balance() > 10.0 * start);
+    let refused = Simulation::new(&elastic(), &shaken(0.5), numerics).unwrap_err();
+    assert!(refused.to_string().contains("below 0.6946"), "{refused}");
 }
 
-/// Fails for plastic work, dashpots or a drive that the ledger forgets: each is many times the residual.
+/// Fails for plastic work or a drive that the ledger forgets: each is many times the residual.
 #[test]
 fn the_ledger_of_a_block_that_flows_closes() {
     let solid = Solid { shear_strength: 1e15, ..Solid::default() };
@@ -100,21 +100,55 @@ fn the_ledger_of_a_block_that_flows_closes() {
     let ledger = simulation.ledger();
     println!("{ledger:?}");
     let residual = (ledger.balance() - start).abs();
-    assert!(ledger.plastic > 0.3 * ledger.drive && ledger.viscous > 0.0);
+    assert!(ledger.plastic > 0.3 * ledger.drive);
     // The rows at the ends and sides flow less than their pairs: 1.2 of 16 rows are such.
     assert!(residual < 0.05 * ledger.drive, "{residual:e} of {:e}", ledger.drive);
 }
 
-/// Fails for an order of sums that depends on memory, a clock or a thread.
+/// Fails for dashpots that the ledger forgets, or takes twice: a third of the motion ends in them.
 #[test]
-fn a_run_repeats_to_the_bit_on_any_thread() {
+fn the_ledger_of_a_block_with_dashpots_closes() {
+    let numerics = Numerics { courant: 0.2, viscosity: 0.2 };
+    let mut simulation = Simulation::new(&elastic(), &shaken(0.5), numerics).unwrap();
+    let start = simulation.ledger().balance();
+    (0..5_000).for_each(|_| simulation.step().unwrap());
+    let ledger = simulation.ledger();
+    assert!(ledger.viscous > 0.3 * start, "{ledger:?}");
+    // The error of the step is that without dashpots.
+    assert!((ledger.balance() / start - 1.0).abs() < 1e-3, "{start:e}: {ledger:?}");
+}
+
+/// Fails for a drag that the ledger forgets or takes twice: half of a block at rest holds the other half
+/// back.
+#[test]
+fn the_ledger_of_a_block_with_drag_closes() {
+    let mut assembly = shaken(0.5);
+    for element in &mut assembly.elements[..288] {
+        element.velocity = [0.0; 2];
+        element.drag = 2e5;
+    }
+    let numerics = Numerics { courant: 0.2, viscosity: 0.0 };
+    let mut simulation = Simulation::new(&elastic(), &assembly, numerics).unwrap();
+    let start = simulation.ledger().balance();
+    (0..10_000).for_each(|_| simulation.step().unwrap());
+    let ledger = simulation.ledger();
+    assert!(ledger.drag > 0.3 * start, "{ledger:?}");
+    assert!((ledger.balance() / start - 1.0).abs() < 5e-3, "{start:e}: {ledger:?}");
+}
+
+/// Fails for an order of sums that depends on memory, a clock or a thread, where links fail and bodies weld.
+#[test]
+fn a_collision_repeats_to_the_bit_on_any_thread() {
     let end = || {
-        let mut simulation =
-            Simulation::new(&Solid::default(), &shaken(0.5), Numerics::default()).unwrap();
-        (0..200).for_each(|_| simulation.step().unwrap());
-        simulation
+        let solid = Solid { strength_ratio: 1.7, ..Solid::default() };
+        let mut collision = Collision::new(&solid, &Asperities::default()).unwrap();
+        (0..3000).for_each(|_| collision.step().unwrap());
+        collision
     };
     let here = end();
+    let is_weld = |pair: &Pair| pair.state == LinkState::Linked && !pair.is_original;
+    let simulation = here.simulation();
+    assert!(simulation.failures() > 0 && simulation.pairs().any(|pair| is_weld(&pair)));
     let there = std::thread::spawn(end).join().unwrap();
     assert!(here == there);
 }

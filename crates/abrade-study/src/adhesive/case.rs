@@ -1,6 +1,6 @@
-//! The cases of a map: one collision each. A case depends on nothing but the map's file; it lies in a file
-//! of its own, which appears when it is complete, so that a map that is broken off, or made in parts, goes
-//! on where it is.
+//! The cases of a map: one collision each. A case depends on nothing but its solid and bodies; it lies in a
+//! file of its own, which appears when it is complete, so that a map that is broken off, made in parts, or
+//! given another gap or name, goes on where it is.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -67,9 +67,13 @@ impl MapFile {
         }
     }
 
-    fn fingerprint(&self) -> String {
+    fn bodies_of(&self, case: &Case) -> Asperities {
+        Asperities { gap: case.gap, ..self.bodies.clone() }
+    }
+
+    fn fingerprint(&self, case: &Case) -> String {
         let mut hash = Fingerprint::new();
-        hash.add(format!("{self:?}").as_bytes());
+        hash.add(format!("{:?} {:?}", self.solid_of(case), self.bodies_of(case)).as_bytes());
         hash.text()
     }
 }
@@ -128,8 +132,7 @@ fn collide(
     tell: &Sender<Done>,
     stop: &AtomicBool,
 ) -> Result<Made, StudyError> {
-    let bodies = Asperities { gap: case.gap, ..file.bodies.clone() };
-    let mut collision = match Collision::new(&file.solid_of(case), &bodies) {
+    let mut collision = match Collision::new(&file.solid_of(case), &file.bodies_of(case)) {
         Ok(collision) => collision,
         Err(error) => return Ok(Err(error.to_string())),
     };
@@ -190,7 +193,7 @@ fn write(file: &MapFile, case: &Case, made: &Made, out: &Path) -> Result<(), Rep
     })?;
     let value = json!({
         "study": file.name,
-        "fingerprint": file.fingerprint(),
+        "fingerprint": file.fingerprint(case),
         "case": case.number,
         "mode": made.as_ref().map(|figures| figures.mode().name()).ok(),
         "figures": made.as_ref().map(figures_json).ok(),
@@ -199,11 +202,11 @@ fn write(file: &MapFile, case: &Case, made: &Made, out: &Path) -> Result<(), Rep
     atomic::write(&path, format!("{value}\n").as_bytes())
 }
 
-/// What an earlier run has made of `case`, if that was of this map.
+/// What an earlier run has made of `case`, if that was of its solid and bodies.
 pub(crate) fn read(file: &MapFile, case: &Case, out: &Path) -> Option<Made> {
     let text = std::fs::read_to_string(path(case, out)).ok()?;
     let value: Value = serde_json::from_str(&text).ok()?;
-    let is_own = value["fingerprint"] == file.fingerprint() && value["case"] == case.number;
+    let is_own = value["fingerprint"] == file.fingerprint(case) && value["case"] == case.number;
     if !is_own {
         return None;
     }
@@ -218,7 +221,7 @@ fn read_figures(value: &Value) -> Option<Figures> {
     Some(Figures {
         ground: number("ground")?,
         largest_piece: number("largest_piece")?,
-        ground_rows: number("ground_rows")?,
+        small_pieces: number("small_pieces")?,
         worn: number("worn")?,
         transferred: number("transferred")?,
         debris: number("debris")?,

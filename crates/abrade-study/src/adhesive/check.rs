@@ -27,8 +27,7 @@ pub fn load_scene(path: &Path, sets: &[String]) -> Result<SceneFile, SceneError>
     }
     let file = document.value.clone();
     check_name(&mut document, &file.name);
-    check_solid(&mut document, &file.solid);
-    check_bodies(&mut document, &file.bodies);
+    check_bodies(&mut document, &file.solid, &file.bodies);
     for (field, value, most) in [("frames", file.frames, 10_000.0), ("rows", file.rows, 1e7)] {
         if let Some(error) = ParameterError::within(field, value.into(), 1.0, most) {
             document.out_of_range(&[], &error);
@@ -53,8 +52,7 @@ pub fn load_map(path: &Path, sets: &[String]) -> Result<MapFile, SceneError> {
     }
     let file = document.value.clone();
     check_name(&mut document, &file.name);
-    check_solid(&mut document, &solid);
-    check_bodies(&mut document, &file.bodies);
+    check_bodies(&mut document, &solid, &file.bodies);
     for (field, values, [low, high]) in [
         ("strength_ratios", &file.strength_ratios, [1.0, 1000.0]),
         ("shear_strengths", &file.shear_strengths, [f64::MIN_POSITIVE, f64::MAX]),
@@ -69,7 +67,16 @@ pub fn load_map(path: &Path, sets: &[String]) -> Result<MapFile, SceneError> {
         let message = format!("the map would have {count:.1e} cases");
         document.refuse(&["gaps"], message, format!("at most {CASES} are allowed"));
     }
+    check_cases(&mut document, &file, count);
     document.finish()
+}
+
+/// Refuses a map whose points all lie above the tensile strength.
+fn check_cases(document: &mut Document<MapFile>, file: &MapFile, points: f64) {
+    if points > 0.0 && points <= CASES as f64 && file.cases().is_empty() {
+        let label = "all points lie above the tensile strength of the solid";
+        document.refuse(&["adhesion_ratios"], "the map has no case", label);
+    }
 }
 
 fn check_list(
@@ -100,19 +107,20 @@ fn check_name<T>(document: &mut Document<T>, name: &str) {
     }
 }
 
-fn check_solid<T>(document: &mut Document<T>, solid: &Solid) {
-    for error in solid.check() {
-        document.out_of_range(&["solid"], &error);
+fn check_bodies<T>(document: &mut Document<T>, solid: &Solid, bodies: &Asperities) {
+    let faults = [solid.check(), bodies.check()];
+    for error in &faults[0] {
+        document.out_of_range(&["solid"], error);
     }
-}
-
-fn check_bodies<T>(document: &mut Document<T>, bodies: &Asperities) {
-    for error in bodies.check() {
+    for error in &faults[1] {
         let path: &[&str] = match error.field {
             "top" | "height" | "side" | "points" => &["bodies", "profile"],
             "angle" | "amplitude" => &["bodies", "packing"],
             _ => &["bodies"],
         };
-        document.out_of_range(path, &error);
+        document.out_of_range(path, error);
+    }
+    if let (true, Some(error)) = (faults.concat().is_empty(), bodies.unstable(solid)) {
+        document.out_of_range(&["bodies"], &error);
     }
 }

@@ -26,10 +26,10 @@ pub struct SceneFile {
     /// scene.
     #[serde(default)]
     pub outline: Option<String>,
-    /// Instants that ParaView files and the picture show (default 20) [-].
+    /// Instants that ParaView files show beside the end (default 20); at most one a step [-].
     #[serde(default = "frames")]
     pub frames: u32,
-    /// Rows of the time series (default 400) [-].
+    /// Rows of the time series beside the end (default 400); at most one a step [-].
     #[serde(default = "rows")]
     pub rows: u32,
 }

@@ -3,19 +3,20 @@
 
 /// Half the drop of the log likelihood at the ends of a 95 % interval: the quantile of chi squared, 3.84, over 2.
 const DROP: f64 = 1.92;
-/// Places that are tried per range, and widths per decade.
+/// Places that are tried over the range of the values, less one.
 const PLACES: usize = 400;
 /// Widths of the curve that are tried, as shares of the range.
 const WIDTHS: [f64; 9] = [0.003, 0.006, 0.012, 0.025, 0.05, 0.1, 0.2, 0.4, 0.8];
 
-/// A boundary, in the units of what varies. An end of the interval at that of the values means that the runs do
-/// not bound it there.
+/// A boundary, in the units of what varies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Boundary {
     /// Where the share is one half.
     pub at: f64,
-    /// The ends of the 95 % interval.
+    /// The ends of the 95 % interval, among the values.
     pub interval: [f64; 2],
+    /// Whether the runs bound it below and above; where not, the end is that of the values.
+    pub is_bounded: [bool; 2],
 }
 
 /// Runs at one value: how many, and how many of them came out so.
@@ -49,13 +50,16 @@ pub(crate) fn boundary(shares: &[Share]) -> Option<Boundary> {
         let fine = |at: &usize| profile[*at] >= best - drop;
         let first = (0..=PLACES).find(fine).unwrap_or(0);
         let last = (0..=PLACES).rev().find(fine).unwrap_or(PLACES);
-        [place(first), place(last)]
+        [first, last]
     };
-    let [from, to] = near(0.02);
-    let at = 0.5 * (from + to);
-    // A curve that is likeliest at an end has no half among the runs.
-    let inside = at > place(0) && at < place(PLACES);
-    inside.then(|| Boundary { at, interval: near(DROP) })
+    let is_inside = |[first, last]: [usize; 2]| [first > 0, last < PLACES];
+    let (best, interval) = (near(0.02), near(DROP));
+    // A curve that is as likely at an end has no half among the runs.
+    (is_inside(best) == [true, true]).then(|| Boundary {
+        at: 0.5 * (place(best[0]) + place(best[1])),
+        interval: interval.map(place),
+        is_bounded: is_inside(interval),
+    })
 }
 
 /// Log likelihood of the shares under a logistic curve.
@@ -83,6 +87,14 @@ mod tests {
         assert!((found.at - 0.75).abs() < 0.05, "{found:?}");
         assert!(found.interval[0] < 0.62 && found.interval[1] > 0.88, "{found:?}");
         assert!(found.interval[0] > 0.3 && found.interval[1] < 1.2, "{found:?}");
+        assert_eq!(found.is_bounded, [true, true]);
+    }
+
+    /// Fails for an interval that looks as if it ended where the values do.
+    #[test]
+    fn an_interval_that_goes_beyond_the_values_is_not_bounded() {
+        let rows = [(0.0, 0), (0.4, 0), (0.8, 2), (1.1, 2), (1.35, 4), (1.6, 3)];
+        assert_eq!(boundary(&shares(&rows, 5)).unwrap().is_bounded, [true, false]);
     }
 
     /// Fails for an interval that does not shrink with the number of runs: a curve of width 0.2 about 1.
@@ -102,11 +114,14 @@ mod tests {
         assert!(width(few) > 3.0 * width(many), "{few:?} {many:?}");
     }
 
-    /// Fails for a boundary where there is none: all or no runs came out so, or few at every value.
+    /// Fails for a boundary where there is none: all or no runs came out so, or few at every value, or
+    /// more than half at every value but not more at the higher.
     #[test]
     fn shares_on_one_side_of_a_half_have_no_boundary() {
         assert_eq!(boundary(&shares(&[(0.0, 0), (0.5, 0), (1.0, 1)], 5)), None);
         assert_eq!(boundary(&shares(&[(0.0, 4), (0.5, 5), (1.0, 5)], 5)), None);
+        let above = [(0.0, 5), (0.4, 3), (0.8, 3), (1.35, 5)];
+        assert_eq!(boundary(&shares(&above, 5)), None);
         assert_eq!(boundary(&shares(&[(0.0, 0), (1.0, 0)], 5)), None);
         assert_eq!(boundary(&shares(&[(0.0, 5), (1.0, 5)], 5)), None);
     }

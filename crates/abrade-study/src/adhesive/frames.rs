@@ -6,6 +6,7 @@ use abrade_adhesive::{Collision, LinkState};
 use abrade_report::{Instant, ReportError, Rounds, Series, atomic, vtp};
 
 use super::file::SceneFile;
+use super::series::passed;
 
 /// Instants of the picture, as shares of the travel.
 const SHOWN: [f64; 3] = [0.25, 0.5, 1.0];
@@ -54,11 +55,11 @@ impl Frames {
         picture.min(f64::from(self.seen) / f64::from(self.count))
     }
 
-    /// Writes an instant if one is due.
+    /// Writes an instant if one is due, or several: it stands once.
     pub(crate) fn see(&mut self, collision: &Collision) -> Result<(), ReportError> {
         let share = collision.share();
         if share >= f64::from(self.seen) / f64::from(self.count) {
-            self.seen += 1;
+            self.seen = passed(share, self.count).max(self.seen + 1);
             self.write(collision)?;
         }
         if SHOWN.get(self.instants.len()).is_some_and(|shown| share >= *shown) {

@@ -1,5 +1,6 @@
 //! What the cases of a map come to: shares of the modes at its points, and where grinding begins.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use abrade_adhesive::{Figures, Mode};
@@ -54,16 +55,22 @@ pub struct Point {
 
 /// What the cases in the results folder `out` come to.
 pub fn result(file: &MapFile, out: &Path) -> Map {
-    let made = |case: Case| case::read(file, &case, out).map(|made| (case, made));
-    let cases: Vec<(Case, Made)> = file.cases().into_iter().filter_map(made).collect();
+    let read = |case: Case| case::read(file, &case, out).map(|made| (case, made));
+    let cases: Vec<(Case, Made)> = file.cases().into_iter().filter_map(read).collect();
+    let mut made: BTreeMap<[u64; 3], Vec<&Made>> = BTreeMap::new();
+    for (case, one) in &cases {
+        let at = [case.strength_ratio, case.shear_strength, case.adhesion_ratio];
+        made.entry(at.map(f64::to_bits)).or_default().push(one);
+    }
     let mut points = Vec::new();
     for &strength_ratio in &file.strength_ratios {
         for &shear_strength in &file.shear_strengths {
             for &adhesion_ratio in &file.adhesion_ratios {
                 let mut point =
                     Point { strength_ratio, shear_strength, adhesion_ratio, ..Point::default() };
-                point.count(&cases);
-                if point.runs + point.failed > 0 {
+                let at = [strength_ratio, shear_strength, adhesion_ratio].map(f64::to_bits);
+                if let Some(own) = made.get(&at) {
+                    point.count(own);
                     points.push(point);
                 }
             }
@@ -73,14 +80,7 @@ pub fn result(file: &MapFile, out: &Path) -> Map {
 }
 
 impl Point {
-    fn count(&mut self, cases: &[(Case, Made)]) {
-        let is_own = |case: &Case| {
-            case.strength_ratio == self.strength_ratio
-                && case.shear_strength == self.shear_strength
-                && case.adhesion_ratio == self.adhesion_ratio
-        };
-        let own: Vec<&Made> =
-            cases.iter().filter(|(case, _)| is_own(case)).map(|(_, made)| made).collect();
+    fn count(&mut self, own: &[&Made]) {
         let figures: Vec<&Figures> = own.iter().filter_map(|made| made.as_ref().ok()).collect();
         self.runs = figures.len();
         self.failed = own.len() - figures.len();
@@ -95,6 +95,12 @@ impl Point {
         };
         self.means = [mean(|f| f.ground), mean(|f| f.largest_piece), mean(|f| f.worn)];
     }
+}
+
+/// The interval in words: `<=` and `>=` where the runs do not bound it.
+fn interval(Boundary { interval: [low, high], is_bounded: [from, to], .. }: &Boundary) -> String {
+    let (from, to) = (if *from { "" } else { "<= " }, if *to { "" } else { ">= " });
+    format!("{from}{low:.2} to {to}{high:.2}")
 }
 
 impl Map {
@@ -147,9 +153,11 @@ impl Map {
         for (ratio, strength, boundary) in self.boundaries() {
             let (ratio, strength) = (format!("a = {ratio}"), strength / 1e6);
             text += &match boundary {
-                Some(Boundary { at, interval: [low, high] }) => format!(
+                Some(boundary) => format!(
                     "{ratio}, sigma_j {strength} MPa: half of the runs grind at sigma_0/sigma_j = \
-                     {at:.2} ({low:.2} to {high:.2})\n"
+                     {:.2} ({})\n",
+                    boundary.at,
+                    interval(&boundary)
                 ),
                 None => {
                     format!("{ratio}, sigma_j {strength} MPa: no boundary among these points\n")

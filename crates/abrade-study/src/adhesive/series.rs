@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use abrade_adhesive::Collision;
+use abrade_adhesive::{Collision, LinkState, Pair};
 use abrade_report::{ReportError, atomic};
 
 use super::file::SceneFile;
@@ -28,10 +28,10 @@ impl Series {
         f64::from(self.seen) / f64::from(self.rows)
     }
 
-    /// Writes a row down if one is due.
+    /// Writes a row down if one is due, or several: an instant stands once.
     pub(crate) fn see(&mut self, collision: &Collision) {
         if collision.share() >= self.next() {
-            self.seen += 1;
+            self.seen = passed(collision.share(), self.rows).max(self.seen + 1);
             self.add(collision);
         }
     }
@@ -39,12 +39,8 @@ impl Series {
     fn add(&mut self, collision: &Collision) {
         let simulation = collision.simulation();
         let (ledger, [fx, fy]) = (simulation.ledger(), collision.load());
-        let (mut welds, mut failures) = (0, 0);
-        for pair in simulation.pairs() {
-            let is_linked = pair.state == abrade_adhesive::LinkState::Linked;
-            welds += usize::from(is_linked && !pair.is_original);
-            failures += u64::from(pair.breaks);
-        }
+        let is_weld = |pair: &Pair| pair.state == LinkState::Linked && !pair.is_original;
+        let (welds, failures) = (simulation.pairs().filter(is_weld).count(), simulation.failures());
         let energies = [
             ledger.kinetic,
             ledger.elastic,
@@ -70,4 +66,9 @@ impl Series {
         self.add(collision);
         atomic::write(&folder.join("timeseries.csv"), self.text.as_bytes())
     }
+}
+
+/// How many of `count` instants, evenly from the start on, are due after the share `share` of the travel.
+pub(crate) fn passed(share: f64, count: u32) -> u32 {
+    (share * f64::from(count)).floor() as u32 + 1
 }

@@ -81,21 +81,21 @@ impl Summary {
         let failure =
             self.failure.as_ref().map_or(String::new(), |why| format!("ended early: {why}\n"));
         format!(
-            "{failure}{}: {}\n  ground {:.3}, largest piece {:.3} of an asperity, {:.2} ground rows, worn {:.3}\n  \
+            "{failure}{}: {}\n  ground {:.3}, largest piece {:.3} of an asperity, {:.2} small pieces per facet element, worn {:.3}\n  \
              transferred {:.3}, debris {:.3}, links failed {:.3}, joined: {}\n  \
-             mean load {:.0} N/m along, {:.0} N/m across; {} elements, {} steps\n",
+             mean force on the lower body {:.0} N/m along, {:.0} N/m across; {} elements, {} steps\n",
             self.name,
             figures.mode().name(),
             figures.ground,
             figures.largest_piece,
-            figures.ground_rows,
+            figures.small_pieces,
             figures.worn,
             figures.transferred,
             figures.debris,
             figures.failed,
             if figures.are_joined { "yes" } else { "no" },
-            -self.mean_load[0],
-            -self.mean_load[1],
+            self.mean_load[0],
+            self.mean_load[1],
             self.elements,
             self.steps,
         )
@@ -112,7 +112,7 @@ pub(crate) fn figures_json(figures: &Figures) -> Value {
     json!({
         "ground": figures.ground,
         "largest_piece": figures.largest_piece,
-        "ground_rows": figures.ground_rows,
+        "small_pieces": figures.small_pieces,
         "worn": figures.worn,
         "transferred": figures.transferred,
         "debris": figures.debris,

@@ -36,7 +36,7 @@ pub fn write(map: &Map, out: &Path) -> Result<(), StudyError> {
 fn cases(map: &Map) -> String {
     let mut text =
         "case,strength_ratio,shear_strength_Pa,adhesion_ratio,gap_d,mode,ground,largest_piece,\
-                    ground_rows,worn,transferred,debris,failed,parted,joined,failure\n"
+                    small_pieces,worn,transferred,debris,failed,parted,joined,failure\n"
             .to_owned();
     for (case, made) in &map.cases {
         let _ = write!(
@@ -51,7 +51,7 @@ fn cases(map: &Map) -> String {
                 f.mode().name(),
                 f.ground,
                 f.largest_piece,
-                f.ground_rows,
+                f.small_pieces,
                 f.worn,
                 f.transferred,
                 f.debris,
@@ -94,7 +94,7 @@ fn boundaries(map: &Map) -> String {
     let mut text = "strength_ratio,shear_strength_Pa,boundary,low95,high95,paper_eq4\n".to_owned();
     for (ratio, strength, boundary) in map.boundaries() {
         let found = match boundary {
-            Some(Boundary { at, interval: [low, high] }) => format!("{at},{low},{high}"),
+            Some(Boundary { at, interval: [low, high], .. }) => format!("{at},{low},{high}"),
             None => ",,".to_owned(),
         };
         let paper = paper(ratio, map.file.solid.poisson);
