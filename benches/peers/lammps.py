@@ -111,8 +111,10 @@ def landing(x, y):
 
 
 def increments(*values):
+    """Quasi-static slides, whose load is balanced to 1e-4: their error is that of the increment."""
     solution = "bodies.indenter.motion.solution=QuasiStatic"
-    return [(f"quasi-static {mm} mm", [f'{solution}(increment: "{mm} mm")']) for mm in values]
+    accuracy = "run.accuracy=0.1"
+    return [(f"quasi-static {mm} mm", [accuracy, f'{solution}(increment: "{mm} mm")']) for mm in values]
 
 
 def scratch(title, load, way, theirs, ours, finest, value, of_lammps, of_summary, unit, over):
@@ -149,11 +151,11 @@ def every_case():
         theirs=steps("wear.inc", "4e-9") + steps("wear_opt.inc", "1e-7", "2e-8", "4e-9"),
         scene="scenes/paper/oblique_impact.ron",
         sets=["bodies.ball.position.gap=1e-6"],
-        ours=accuracies("1e-1", "1e-2", "1e-3", "3e-4", "1e-4", "3e-5", "1e-5"),
+        ours=accuracies("1e-1", "1e-2", "1e-3", "5e-4", "3e-4", "1e-4", "3e-5", "1e-5"),
         finest=["1e-5", "1e-6"],
         of_lammps=result("W"),
         of_summary=wear_volume,
-        times=2,
+        times=4,
         landings=[landing(*place) for place in LANDINGS],
     )
     indentation = Case(
@@ -186,7 +188,7 @@ def every_case():
          ("wear_opt.inc", {"dt": "1e-6", "nth": 1000}),
          ("wear_opt.inc", {"dt": "4e-6", "dti": "1e-5", "nth": 250}),
          ("wear_opt.inc", {"dt": "8e-6", "dti": "1e-5", "nth": 125})],
-        accuracies("0.5", "1e-2") + increments(0.6, 0.3, 0.075), ["1e-2", "1e-3"],
+        accuracies("0.5", "1e-2") + increments(0.6, 0.3, 0.15, 0.1, 0.075, 0.02), ["1e-2", "1e-3"],
         "rate over the last 8 mm [mm2]", rate_over(8e-3), wear_rate, 1e-6, "8e-3",
     )
     return {"impact": impact, "indentation": indentation, "scratch": short, "full": full}

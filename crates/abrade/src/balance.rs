@@ -5,8 +5,8 @@ use crate::error::PhysicsError;
 #[cfg(feature = "state")]
 use crate::state::finite;
 
-/// Relative tolerance of a load that is searched for.
-pub(crate) const LOAD: f64 = 1e-6;
+/// Relative tolerance of a load that is searched for, over the accuracy that is asked for.
+const LOAD: f64 = 1e-3;
 /// Secants from where the last search ended, before a bracket is sought.
 const SECANTS: usize = 8;
 /// Steps between the ends of a bracket.
@@ -25,11 +25,18 @@ pub(crate) struct Balance {
 /// A sinking [m] and the excess at it [N].
 type Asked = [f64; 2];
 
+/// Relative tolerance of a load that is searched for, at an `accuracy`.
+pub(crate) fn tolerance(accuracy: f64) -> f64 {
+    LOAD * accuracy
+}
+
 /// A search under way.
 pub(crate) struct Search<F> {
     /// Excess [N] at a sinking [m].
     excess: F,
     load: f64,
+    /// Relative tolerance of it.
+    tolerance: f64,
     /// Excess at what was asked last [N].
     over: f64,
     /// Sinkings between which the balance lies.
@@ -38,9 +45,9 @@ pub(crate) struct Search<F> {
 }
 
 impl<F: FnMut(f64) -> f64> Search<F> {
-    /// A search for the balance of `load` [N].
-    pub(crate) fn new(load: f64, excess: F) -> Self {
-        Self { excess, load, over: f64::NAN, low: None, high: None }
+    /// A search for the balance of `load` [N], with a relative `tolerance`.
+    pub(crate) fn new(load: f64, tolerance: f64, excess: F) -> Self {
+        Self { excess, load, tolerance, over: f64::NAN, low: None, high: None }
     }
 
     /// The balance, first by secants from the `last` one, then within a bracket that begins at
@@ -143,7 +150,7 @@ impl<F: FnMut(f64) -> f64> Search<F> {
     }
 
     fn is_balanced(&self, over: f64) -> bool {
-        over.abs() < LOAD * self.load
+        over.abs() < self.tolerance * self.load
     }
 }
 

@@ -3,7 +3,7 @@
 
 use nalgebra::Vector3;
 
-use crate::balance::{LOAD, Search};
+use crate::balance::{Search, tolerance};
 use crate::body::Body;
 use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Until};
 use crate::error::PhysicsError;
@@ -145,6 +145,7 @@ impl Driven {
         let gap = self.integrator.gap(body, placed);
         body.state.position += down * gap.max(0.0);
         let limit = body.shape.bounding_radius();
+        let tolerance = tolerance(self.integrator.settings.accuracy);
         let mut done = Advance::default();
         let mut depth = 0.0;
         loop {
@@ -166,7 +167,7 @@ impl Driven {
                 (step, trial) = (sink, found);
                 done.node_evaluations += trial.evaluations;
             }
-            let reached = load(self.integrator.grip(&trial).force) >= (1.0 - LOAD) * target;
+            let reached = load(self.integrator.grip(&trial).force) >= (1.0 - tolerance) * target;
             depth += step;
             done.steps += 1;
             self.lead(body, placed, step, &trial);
@@ -258,7 +259,8 @@ impl Driven {
     ) -> (f64, Trial) {
         let mut evaluations = 0;
         let mut asked = None;
-        let mut search = Search::new(target, |sink| {
+        let tolerance = tolerance(self.integrator.settings.accuracy);
+        let mut search = Search::new(target, tolerance, |sink| {
             let trial = self.push(body, placed, down * sink);
             evaluations += trial.evaluations;
             let over = -self.integrator.grip(&trial).force.dot(&down) - target;

@@ -6,7 +6,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::balance::Search;
+use crate::balance::{Search, tolerance};
 use crate::body::{Body, State};
 use crate::encounter::{Advance, EncounterSettings, Instant, Observer, Placed};
 use crate::error::PhysicsError;
@@ -55,7 +55,8 @@ impl Integrator {
         let last = self.balance;
         let mut evaluations = 0;
         let mut asked = None;
-        let search = Search::new(press.load, |sink| {
+        let tolerance = tolerance(self.settings.accuracy);
+        let search = Search::new(press.load, tolerance, |sink| {
             let trial = self.push(body, placed, press, sink);
             evaluations += trial.evaluations;
             let over = -self.grip(&trial).force.dot(&press.down) - press.load;
@@ -264,7 +265,7 @@ mod tests {
         for i in 0..=count {
             let trial = integrator.press(&body, &placed, &press, scale).expect("a balance");
             let force = integrator.grip(&trial).force;
-            assert!((force.z / load - 1.0).abs() < crate::balance::LOAD);
+            assert!((force.z / load - 1.0).abs() < tolerance(settings.accuracy));
             integrator.lead(&mut body, &mut placed, &trial, [Vector3::zeros(); 2]);
             // The first one sinks where it stands, from nothing that it knows.
             if i > 0 {
