@@ -26,8 +26,8 @@ pub(crate) fn run(arguments: &AdhesiveRunArguments) -> Result<(), Failure> {
         false => {
             let (text, place) = (ended.summary.text(), folder.display());
             say::say(&format!(
-                "{text}elements.pvd, links.pvd, timeseries.csv, asperities.png and summary.json are in \
-                 {place}\n"
+                "{text}elements.pvd, links.pvd, timeseries.csv, {} and summary.json are in {place}\n",
+                adhesive::PICTURE
             ))?;
         }
     }

@@ -1,7 +1,9 @@
 //! `abrade view`: a page of a finished run.
 
 use abrade_report::quantity_text::memory;
+use abrade_study::adhesive::PICTURE;
 use abrade_view::{Page, ViewError};
+use anyhow::anyhow;
 
 use crate::arguments::ViewArguments;
 use crate::failure::Failure;
@@ -12,6 +14,12 @@ const LARGE: usize = 50_000_000;
 
 /// Reads the run's folder, writes the page and says where it is.
 pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
+    if arguments.folder.join(PICTURE).exists() {
+        return Err(Failure::Input(anyhow!(
+            "{} is the folder of a collision of asperities: open {PICTURE}, or elements.pvd in ParaView",
+            arguments.folder.display()
+        )));
+    }
     let page = Page::of_run(&arguments.folder).map_err(failure)?;
     let path = arguments.out.clone().unwrap_or_else(|| arguments.folder.join("view.html"));
     page.write(&path).map_err(|error| Failure::Input(error.into()))?;

@@ -1,29 +1,23 @@
 //! The planes of a hull in blocks of four, which a line is clipped against at once: what a branch for each
-//! plane would cost is more than its arithmetic. The loops over the four become vectors, as wide as the
-//! processor has them, with the same bits.
+//! plane would cost is more than its arithmetic.
 
-use std::array::from_fn;
-
-use multiversion::multiversion;
 use nalgebra::{Point3, Vector3};
+use wide::f64x4;
 
 /// Planes in a block.
 const LANES: usize = 4;
 /// Blocks between two looks whether anything of the line is left.
 const LOOK: usize = 4;
 
-/// A number of each of four planes.
-type Four = [f64; LANES];
-
 /// Four planes. Those that fill the last block have no normal, and everything is below them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Block {
-    /// Outward normals, by component.
-    normal: [Four; 3],
+    /// Outward normals.
+    normal: [f64x4; 3],
     /// Their offsets [m].
-    offset: Four,
+    offset: f64x4,
     /// Parts of the normals along the level, if there is one; never the zero below zero.
-    slope: Four,
+    slope: f64x4,
 }
 
 /// How planes lean against a line.
@@ -32,14 +26,14 @@ pub(crate) enum Line {
     /// Along the level that the blocks were made for.
     Level,
     /// Along this direction.
-    Along([f64; 3]),
+    Along([f64x4; 3]),
 }
 
 impl Line {
     /// Along `n`, which is `level` where there is one.
     #[inline]
     pub(crate) fn new(level: Option<Vector3<f64>>, n: &Vector3<f64>) -> Self {
-        level.map_or_else(|| Self::Along([n.x, n.y, n.z]), |_| Self::Level)
+        level.map_or_else(|| Self::Along(splat(n)), |_| Self::Level)
     }
 }
 
@@ -49,14 +43,13 @@ pub(crate) fn add(
     planes: impl Iterator<Item = (Vector3<f64>, f64)>,
     level: Option<Vector3<f64>>,
 ) {
-    let none = [(Vector3::zeros(), f64::INFINITY); LANES];
-    let (mut four, mut count) = (none, 0);
+    let (mut four, mut count) = ([(Vector3::zeros(), f64::INFINITY); LANES], 0);
     for plane in planes {
         four[count] = plane;
         count += 1;
         if count == LANES {
             blocks.push(Block::new(&four, level));
-            (four, count) = (none, 0);
+            (four, count) = ([(Vector3::zeros(), f64::INFINITY); LANES], 0);
         }
     }
     if count > 0 {
@@ -66,106 +59,102 @@ pub(crate) fn add(
 
 /// The part of the line from `x` within `ends` [m] that lies inside the hull of these planes, each moved out
 /// by `margin` [m]; None where there is none.
-#[multiversion(targets("x86_64+avx2"))]
+#[inline]
 pub(crate) fn inside(
     blocks: &[Block],
     x: &Point3<f64>,
     line: Line,
-    ends: [f64; 2],
+    [low, high]: [f64; 2],
     margin: f64,
 ) -> Option<[f64; 2]> {
-    let x = [x.x, x.y, x.z];
-    let [mut lows, mut highs] = ends.map(|end| [end; LANES]);
+    let (x, margin) = (splat(&x.coords), f64x4::splat(margin));
+    let (mut lows, mut highs) = (f64x4::splat(low), f64x4::splat(high));
     for blocks in blocks.chunks(LOOK) {
         for block in blocks {
-            let (slope, above) = (block.slope(line), dot(&block.normal, x));
-            for lane in 0..LANES {
-                let room = block.offset[lane] + margin - above[lane];
-                let bound = room / slope[lane];
-                let (low, high) = (lows[lane], highs[lane]);
-                lows[lane] = if (slope[lane] < 0.0) & (bound > low) { bound } else { low };
-                // Along a plane the bound is without end or before any beginning; it is no number,
-                // and above and below none, where the line lies in the plane.
-                highs[lane] = if (slope[lane] >= 0.0) & (bound < high) { bound } else { high };
-            }
+            let slope = block.slope(line);
+            let room = block.offset + margin - dot(&block.normal, &x);
+            let bound = room / slope;
+            let (falls, rises) = (slope.simd_lt(f64x4::ZERO), slope.simd_ge(f64x4::ZERO));
+            lows = (falls & bound.simd_gt(lows)).select(bound, lows);
+            // Along a plane the bound is without end or before any beginning; it is no number, and above
+            // and below none, where the line lies in the plane.
+            highs = (rises & bound.simd_lt(highs)).select(bound, highs);
         }
-        if greatest(lows) >= least(highs) {
+        if greatest(lows) >= -greatest(-highs) {
             return None;
         }
     }
-    Some([greatest(lows), least(highs)])
+    Some([greatest(lows), -greatest(-highs)])
 }
 
 /// Outward normal of the first of these planes that the line from `x` crosses at `low` [m] on its way in.
-#[multiversion(targets("x86_64+avx2"))]
+#[inline]
 pub(crate) fn crossed_at(
     blocks: &[Block],
     x: &Point3<f64>,
     line: Line,
     low: f64,
 ) -> Option<Vector3<f64>> {
-    let x = [x.x, x.y, x.z];
-    for block in blocks {
-        let (slope, above) = (block.slope(line), dot(&block.normal, x));
-        let bound: Four = from_fn(|lane| (block.offset[lane] - above[lane]) / slope[lane]);
-        let is_it: [bool; LANES] = from_fn(|lane| (slope[lane] < 0.0) & (bound[lane] == low));
-        if let Some(lane) = is_it.iter().position(|is_it| *is_it) {
-            return Some(Vector3::from(block.normal.map(|part| part[lane])));
-        }
-    }
-    None
+    let x = splat(&x.coords);
+    blocks.iter().find_map(|block| {
+        let slope = block.slope(line);
+        let bound = (block.offset - dot(&block.normal, &x)) / slope;
+        let is_it = slope.simd_lt(f64x4::ZERO) & bound.simd_eq(f64x4::splat(low));
+        let lane = is_it.to_bitmask().trailing_zeros() as usize;
+        (lane < LANES).then(|| Vector3::from(block.normal.map(|part| part.to_array()[lane])))
+    })
 }
 
 /// Distance [m] of the line from `x` from the farthest of these planes from which it leads away.
-#[multiversion(targets("x86_64+avx2"))]
+#[inline]
 pub(crate) fn clearance(blocks: &[Block], x: &Point3<f64>, line: Line) -> f64 {
-    let x = [x.x, x.y, x.z];
-    let mut farthest = [f64::NEG_INFINITY; LANES];
+    let x = splat(&x.coords);
+    let mut farthest = f64x4::splat(f64::NEG_INFINITY);
     for block in blocks {
-        let (slope, above) = (block.slope(line), dot(&block.normal, x));
-        for lane in 0..LANES {
-            let (distance, far) = (above[lane] - block.offset[lane], farthest[lane]);
-            farthest[lane] = if (slope[lane] <= 0.0) & (distance > far) { distance } else { far };
-        }
+        let distance = dot(&block.normal, &x) - block.offset;
+        let leads_away = block.slope(line).simd_le(f64x4::ZERO);
+        farthest = farthest.fast_max(leads_away.select(distance, farthest));
     }
     greatest(farthest)
 }
 
 impl Block {
     fn new(planes: &[(Vector3<f64>, f64); LANES], level: Option<Vector3<f64>>) -> Self {
-        let slope = |n: &Vector3<f64>| level.map_or(0.0, |level| n.dot(&level)) + 0.0;
+        let lanes = |part: &dyn Fn(&Vector3<f64>) -> f64| {
+            f64x4::new(std::array::from_fn(|lane| part(&planes[lane].0)))
+        };
         Self {
-            normal: from_fn(|axis| planes.map(|(normal, _)| normal[axis])),
-            offset: planes.map(|(_, offset)| offset),
-            slope: planes.map(|(normal, _)| slope(&normal)),
+            normal: [lanes(&|n| n.x), lanes(&|n| n.y), lanes(&|n| n.z)],
+            offset: f64x4::new(std::array::from_fn(|lane| planes[lane].1)),
+            slope: lanes(&|n| level.map_or(0.0, |level| n.dot(&level))) + f64x4::ZERO,
         }
     }
 
     /// Parts of the normals along the line; never the zero below zero.
     #[inline(always)]
-    fn slope(&self, line: Line) -> Four {
+    fn slope(&self, line: Line) -> f64x4 {
         match line {
             Line::Level => self.slope,
-            Line::Along(n) => dot(&self.normal, n).map(|slope| slope + 0.0),
+            Line::Along(n) => dot(&self.normal, &n) + f64x4::ZERO,
         }
     }
 }
 
 #[inline(always)]
-fn dot([x, y, z]: &[Four; 3], v: [f64; 3]) -> Four {
-    from_fn(|lane| x[lane] * v[0] + y[lane] * v[1] + z[lane] * v[2])
+fn splat(v: &Vector3<f64>) -> [f64x4; 3] {
+    [f64x4::splat(v.x), f64x4::splat(v.y), f64x4::splat(v.z)]
 }
 
 #[inline(always)]
-fn greatest([a, b, c, d]: Four) -> f64 {
+fn dot([ax, ay, az]: &[f64x4; 3], [bx, by, bz]: &[f64x4; 3]) -> f64x4 {
+    *ax * *bx + *ay * *by + *az * *bz
+}
+
+#[inline(always)]
+fn greatest(four: f64x4) -> f64 {
+    let [a, b, c, d] = four.to_array();
     let higher = |a: f64, b: f64| if b > a { b } else { a };
     higher(higher(a, b), higher(c, d))
-}
-
-#[inline(always)]
-fn least([a, b, c, d]: Four) -> f64 {
-    let lower = |a: f64, b: f64| if b < a { b } else { a };
-    lower(lower(a, b), lower(c, d))
 }
 
 #[cfg(test)]

@@ -64,6 +64,17 @@ fn faults_are_shown_where_they_stand() {
     }
 }
 
+/// Fails for a folder that abrade has written itself and calls damaged.
+#[test]
+fn the_folder_of_a_collision_is_not_viewed() {
+    let folder = Folder::new("adhesive_viewed");
+    folder.write("bodies.ron", SCENE);
+    assert_eq!(folder.abrade(&["adhesive", "run", "bodies.ron", "--out", "out"]).code, Some(0));
+    let said = folder.abrade(&["view", "out"]);
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    assert!(said.err.contains("open asperities.png"), "{}", said.err);
+}
+
 /// Fails for a file of another kind that is answered with the words that are strange here, and for a fault in
 /// an argument that is taken for one of the file.
 #[test]

@@ -8,6 +8,8 @@ use abrade_report::{Instant, ReportError, Rounds, Series, atomic, vtp};
 use super::file::SceneFile;
 use super::series::passed;
 
+/// File of the picture, in the folder of a run.
+pub const PICTURE: &str = "asperities.png";
 /// Instants of the picture, as shares of the travel.
 const SHOWN: [f64; 3] = [0.25, 0.5, 1.0];
 
@@ -84,7 +86,7 @@ impl Frames {
             window: [[0.0, low - self.diameter], [self.period, high + self.diameter]],
             instants: std::mem::take(&mut self.instants),
         };
-        atomic::write(&self.folder.join("asperities.png"), &rounds.to_png()?)
+        atomic::write(&self.folder.join(PICTURE), &rounds.to_png()?)
     }
 
     fn write(&mut self, collision: &Collision) -> Result<(), ReportError> {

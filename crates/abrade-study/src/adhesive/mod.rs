@@ -19,6 +19,7 @@ pub use case::{Case, gather, is_made, make};
 pub use check::{load_map, load_scene};
 pub use file::{MapFile, SceneFile, VERSION};
 pub use fit::Boundary;
+pub use frames::PICTURE;
 pub use map::{Map, Point, result};
 pub use run::{Ended, run};
 pub use write::write;
