@@ -151,7 +151,7 @@ def every_case():
         theirs=steps("wear.inc", "4e-9") + steps("wear_opt.inc", "1e-7", "2e-8", "4e-9"),
         scene="scenes/paper/oblique_impact.ron",
         sets=["bodies.ball.position.gap=1e-6"],
-        ours=accuracies("1e-1", "1e-2", "1e-3", "5e-4", "3e-4", "1e-4", "3e-5", "1e-5"),
+        ours=accuracies("1e-1", "1e-2", "1e-3", "4e-4", "3e-4", "1e-4", "3e-5", "1e-5"),
         finest=["1e-5", "1e-6"],
         of_lammps=result("W"),
         of_summary=wear_volume,
@@ -188,7 +188,7 @@ def every_case():
          ("wear_opt.inc", {"dt": "1e-6", "nth": 1000}),
          ("wear_opt.inc", {"dt": "4e-6", "dti": "1e-5", "nth": 250}),
          ("wear_opt.inc", {"dt": "8e-6", "dti": "1e-5", "nth": 125})],
-        accuracies("0.5", "1e-2") + increments(0.6, 0.3, 0.15, 0.1, 0.075, 0.02), ["1e-2", "1e-3"],
+        accuracies("0.5", "1e-2") + increments(0.6, 0.3, 0.15, 0.09, 0.075, 0.02), ["1e-2", "1e-3"],
         "rate over the last 8 mm [mm2]", rate_over(8e-3), wear_rate, 1e-6, "8e-3",
     )
     return {"impact": impact, "indentation": indentation, "scratch": short, "full": full}

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use abrade_report::Summary;
-use abrade_report::quantity_text::{length, volume};
+use abrade_report::quantity_text::{digits, length, volume};
 use abrade_report::summary::ErosionSummary;
 use abrade_scene::Checked;
 use abrade_scene::scene::Output;
@@ -52,7 +52,7 @@ fn write_digest(
             write!(parts, ", chips {}", volume(surface.chip_volume))?;
         }
         if let Some(rate) = surface.wear_rate {
-            write!(parts, ", {:.4} mm3 per mm", rate * 1e6)?;
+            write!(parts, ", at the end {} mm3 per mm", digits(rate * 1e6))?;
         }
         writeln!(out, "  surface {name:12} {parts}")?;
     }
