@@ -71,16 +71,17 @@ impl WearWorld {
         let Some(rb) = world.bodies.get(held.body) else { return };
         let dt = self.current.dt;
         let tracked = Tracked::slot(&mut self.bodies, held.body);
-        tracked.borne.clear();
+        let mut borne = Vec::new();
         for &id in &held.surfaces {
             let worn = &self.surfaces[id.0];
             let Some(lie) = Lie::find(&self.lies, id) else { continue };
             let impulse = held::impulse(rb.colliders(), worn, world.narrow_phase);
-            tracked.borne.push((id, lie.pose.inverse_transform_vector(&impulse).z.max(0.0) / dt));
+            borne.push((id, lie.pose.inverse_transform_vector(&impulse).z.max(0.0) / dt));
         }
-        let total: f64 = tracked.borne.iter().map(|(_, load)| load).sum();
+        let total: f64 = borne.iter().map(|(_, load)| load).sum();
         let mass = scalar::wide(rb.mass());
         held.strikes |= total * dt > mass * held.rest_speed + GROWTH * held.bore * dt;
+        tracked.borne = borne;
     }
 
     /// Takes the island around a body in lockstep; returns its members, and whether they are
@@ -187,6 +188,7 @@ impl WearWorld {
             }
         }
         let tracked = Tracked::slot(&mut self.bodies, held.body);
+        tracked.borne = borne;
         tracked.book(&booking, &worn, &mut self.events);
         self.keep_afloat(held, world);
     }

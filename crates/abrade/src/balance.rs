@@ -5,8 +5,11 @@ use crate::error::PhysicsError;
 #[cfg(feature = "state")]
 use crate::state::finite;
 
-/// Relative tolerance of a load that is searched for, over the accuracy that is asked for.
-const LOAD: f64 = 1e-3;
+/// Relative tolerance of a load that is searched for. What rests is balanced time and again, and sinks by what
+/// is too much each time.
+pub(crate) const LOAD: f64 = 1e-6;
+/// That of a slide, over the accuracy that is asked for.
+const SLIDE: f64 = 1e-3;
 /// Secants from where the last search ended, before a bracket is sought.
 const SECANTS: usize = 8;
 /// Steps between the ends of a bracket.
@@ -25,9 +28,9 @@ pub(crate) struct Balance {
 /// A sinking [m] and the excess at it [N].
 type Asked = [f64; 2];
 
-/// Relative tolerance of a load that is searched for, at an `accuracy`.
-pub(crate) fn tolerance(accuracy: f64) -> f64 {
-    LOAD * accuracy
+/// Relative tolerance of the load on a body that slides on, at an `accuracy`.
+pub(crate) fn slide_tolerance(accuracy: f64) -> f64 {
+    LOAD.max(SLIDE * accuracy)
 }
 
 /// A search under way.

@@ -3,7 +3,7 @@
 
 use nalgebra::Vector3;
 
-use crate::balance::{Search, tolerance};
+use crate::balance::{LOAD, Search, slide_tolerance};
 use crate::body::Body;
 use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Until};
 use crate::error::PhysicsError;
@@ -145,7 +145,6 @@ impl Driven {
         let gap = self.integrator.gap(body, placed);
         body.state.position += down * gap.max(0.0);
         let limit = body.shape.bounding_radius();
-        let tolerance = tolerance(self.integrator.settings.accuracy);
         let mut done = Advance::default();
         let mut depth = 0.0;
         loop {
@@ -167,7 +166,7 @@ impl Driven {
                 (step, trial) = (sink, found);
                 done.node_evaluations += trial.evaluations;
             }
-            let reached = load(self.integrator.grip(&trial).force) >= (1.0 - tolerance) * target;
+            let reached = load(self.integrator.grip(&trial).force) >= (1.0 - LOAD) * target;
             depth += step;
             done.steps += 1;
             self.lead(body, placed, step, &trial);
@@ -242,7 +241,8 @@ impl Driven {
         let count = (travel / increment).ceil().max(1.0);
         let along = ahead * (travel / count);
         let (turn, load) = (Vector3::zeros(), self.drive.load);
-        let press = Press { along, turn, down, load, reach: None };
+        let tolerance = slide_tolerance(self.integrator.settings.accuracy);
+        let press = Press { along, turn, down, load, tolerance, reach: None };
         let creep = Creep { duration, count, scale: increment };
         self.integrator.creep(body, placed, &press, &creep, observer)
     }
@@ -259,8 +259,7 @@ impl Driven {
     ) -> (f64, Trial) {
         let mut evaluations = 0;
         let mut asked = None;
-        let tolerance = tolerance(self.integrator.settings.accuracy);
-        let mut search = Search::new(target, tolerance, |sink| {
+        let mut search = Search::new(target, LOAD, |sink| {
             let trial = self.push(body, placed, down * sink);
             evaluations += trial.evaluations;
             let over = -self.integrator.grip(&trial).force.dot(&down) - target;

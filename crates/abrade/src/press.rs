@@ -6,7 +6,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::balance::{Search, tolerance};
+use crate::balance::{LOAD, Search};
 use crate::body::{Body, State};
 use crate::encounter::{Advance, EncounterSettings, Instant, Observer, Placed};
 use crate::error::PhysicsError;
@@ -23,8 +23,9 @@ pub(crate) struct Press {
     pub turn: Vector3<f64>,
     /// Unit vector along which the body is pressed.
     pub down: Vector3<f64>,
-    /// Load [N].
+    /// Load [N], and its relative tolerance.
     pub load: f64,
+    pub tolerance: f64,
     /// Farthest sinking at which the load is sought, if it is bound [m].
     pub reach: Option<f64>,
 }
@@ -55,8 +56,7 @@ impl Integrator {
         let last = self.balance;
         let mut evaluations = 0;
         let mut asked = None;
-        let tolerance = tolerance(self.settings.accuracy);
-        let search = Search::new(press.load, tolerance, |sink| {
+        let search = Search::new(press.load, press.tolerance, |sink| {
             let trial = self.push(body, placed, press, sink);
             evaluations += trial.evaluations;
             let over = -self.grip(&trial).force.dot(&press.down) - press.load;
@@ -191,7 +191,8 @@ impl Pressed {
         let length = way.norm() + turn.norm() * body.shape.bounding_radius();
         let count = (length / hold.increment).ceil().clamp(1.0, hold.limit.max(1) as f64);
         let reach = hold.reach;
-        let press = Press { along: way / count, turn: turn / count, down, load, reach };
+        let (along, turn) = (way / count, turn / count);
+        let press = Press { along, turn, down, load, tolerance: LOAD, reach };
         let creep = Creep { duration: hold.duration, count, scale: hold.increment };
         self.integrator.creep(body, placed, &press, &creep, observer)
     }
@@ -259,13 +260,14 @@ mod tests {
             turn: Vector3::zeros(),
             down: -Vector3::z(),
             load,
+            tolerance: LOAD,
             reach: None,
         };
         let (mut trials, mut least) = (0.0, f64::INFINITY);
         for i in 0..=count {
             let trial = integrator.press(&body, &placed, &press, scale).expect("a balance");
             let force = integrator.grip(&trial).force;
-            assert!((force.z / load - 1.0).abs() < tolerance(settings.accuracy));
+            assert!((force.z / load - 1.0).abs() < LOAD);
             integrator.lead(&mut body, &mut placed, &trial, [Vector3::zeros(); 2]);
             // The first one sinks where it stands, from nothing that it knows.
             if i > 0 {
