@@ -35,7 +35,11 @@ impl Integrator {
         }
         let short = self.foreseen_short(body, loads, trial);
         let energy = self.contact_energy(body, surfaces);
-        let room = (1.0 - self.short.abs() / (UNBALANCED * energy)).max(0.0);
+        let room = match self.glue.is_empty() {
+            true => (1.0 - self.short.abs() / (UNBALANCED * energy)).max(0.0),
+            // What adhesion gives and takes is no part of that energy.
+            false => 1.0,
+        };
         let allowed = SHORT_STEP * self.settings.accuracy * room * room * energy;
         short.abs() - self.short.abs() > allowed
     }
