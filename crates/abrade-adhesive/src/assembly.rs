@@ -130,8 +130,8 @@ impl Assembly {
         let positions: Vec<[f64; 2]> = self.elements.iter().map(|e| e.position).collect();
         let grid = Grid::new(&positions, self.period, ONE_PLACE * self.diameter);
         let mut found = None;
-        for i in 0..positions.len() {
-            grid.each_later(i, positions[i], |j| found = found.or(Some([i, j])));
+        for (i, position) in positions.iter().enumerate() {
+            grid.each_later(i, *position, |j| found = found.or(Some([i, j])));
         }
         found
     }
