@@ -322,8 +322,13 @@ impl Integrator {
         self.glue.get(i).and_then(Option::as_ref).map_or(0.0, Glue::range)
     }
 
+    pub(crate) fn adheres(&self) -> bool {
+        !self.glue.is_empty()
+    }
+
     /// Longest step in which a body that is `drawn` [N] does not fly past the range of an adhesion
     /// unseen [s].
+    #[inline(never)]
     pub(crate) fn adhesion_limit(
         &self,
         body: &Body,
@@ -331,9 +336,6 @@ impl Integrator {
         loads: &Loads,
         drawn: &Vector3<f64>,
     ) -> f64 {
-        if self.glue.is_empty() {
-            return f64::INFINITY;
-        }
         let step = STEP * self.eta;
         let drawn = drawn.norm() * self.dynamics.inverse_mass;
         let limit = |(glue, placed): (&Option<Glue>, &Placed<'_>)| {

@@ -44,11 +44,12 @@ impl Integrator {
         state.velocity /= 1.0 + dt * loads.linear_damping;
         state.spin /= 1.0 + dt * loads.angular_damping;
         let damped = self.arrive(surfaces, dt);
-        if let Some(spent) = end.ledger {
+        if let Some(carried) = carried {
+            let spent = self.booked;
             let energy = |state: &State| body.inertia.kinetic_energy(state);
             let weight = loads.pull(&body.inertia);
             let ledger = &mut self.ledger;
-            let carried = carriers_energy(surfaces) - carried.unwrap_or_default();
+            let carried = carriers_energy(surfaces) - carried;
             ledger.kinetic_change += energy(&state) - energy(&before) + carried;
             ledger.damping += energy(&end.state) - energy(&state) + spent.damping + damped;
             ledger.external_work += spent.external_work
@@ -78,7 +79,6 @@ impl Integrator {
         if trial.touching > 0 || self.touching {
             done.contact_time += dt;
         }
-        self.pull = end.pull;
         self.touching = trial.touching > 0;
         body.state = state;
     }

@@ -17,7 +17,7 @@ use crate::sweep::Swept;
 pub(crate) struct Slot {
     pub id: u32,
     /// Hardness over that of the material [-].
-    pub factor: f32,
+    pub factor: f64,
     /// Present position in the surface's frame [m].
     pub x: Point3<f64>,
     pub n: Vector3<f64>,
@@ -173,7 +173,7 @@ impl Candidates {
         let sorted = self.slots.is_sorted_by(|a, b| a.id < b.id);
         require(sorted, "candidates are not in their order")?;
         let numbers = |slot: &Slot| {
-            let sizes = positive(slot.area) && positive(f64::from(slot.factor));
+            let sizes = positive(slot.area) && positive(slot.factor);
             finite(slot.x.coords.iter().chain(slot.n.iter())) && sizes
         };
         let made = self.made.as_ref().is_none_or(|(_, margin)| not_negative(*margin));

@@ -107,7 +107,7 @@ impl ColumnLaw {
     /// Overlap at which a node yields [m].
     #[inline]
     fn yield_overlap_of(&self, slot: &Slot) -> f64 {
-        self.material_overlap * f64::from(slot.factor)
+        self.material_overlap * slot.factor
     }
 
     /// Energy of a spring under a column of `area` [m2] [J].
@@ -222,7 +222,7 @@ impl ColumnLaw {
                 true => self.price.of(&entry, &slot.n, step, &arm),
                 false => (self.price.hardness, 0.0),
             };
-            let energy = price * f64::from(slot.factor) * slot.area * length;
+            let energy = price * slot.factor * slot.area * length;
             toll.wear += energy;
             let force = energy / entry.displacement;
             self.press::<RUBS>(step, &entry.normal, &arm, force, &mut toll.flow);
@@ -300,7 +300,7 @@ impl ColumnLaw {
     /// than its spring was pressed in, which bounds the slip of a step in which all of it counts to 2 g_y /
     /// K. The force is that of the whole step, before the loss.
     fn wear(&self, slot: &Slot, [before, after]: [f64; 2], rubbed: f64) -> f64 {
-        let loss = self.wear_rate / f64::from(slot.factor) * rubbed / slot.area;
+        let loss = self.wear_rate / slot.factor * rubbed / slot.area;
         loss.min(before.max(after))
     }
 }
@@ -324,7 +324,7 @@ impl ColumnLaw {
             force: 0.5 * self.stiffness * slot.area * (before + after) / cosine,
             // Work of the force: what the spring took.
             advance: (after - before) * cosine,
-            cap: self.price.hardness * f64::from(slot.factor) * slot.area / cosine,
+            cap: self.price.hardness * slot.factor * slot.area / cosine,
             stored: squeezes.map(|squeeze| self.stored(slot.area, squeeze)),
             stiffness: self.stiffness * slot.area / (cosine * cosine),
             shear: Shear::default(),

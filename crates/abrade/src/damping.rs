@@ -16,9 +16,9 @@
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use crate::carried::Grip;
-use crate::carrier::reaction;
 use crate::encounter::Placed;
 use crate::integrate::Integrator;
+use crate::ride::reaction;
 use crate::rotation::Dynamics;
 use crate::toll::Push;
 use crate::trial::Trial;

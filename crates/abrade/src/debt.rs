@@ -30,15 +30,15 @@ impl Integrator {
         loads: &Loads,
         trial: &Trial,
     ) -> bool {
-        if !self.has_sprung_columns() || !self.pays_alone(surfaces) {
+        if !self.has_sprung_columns() || !self.pays_alone() {
             return false;
         }
         let short = self.foreseen_short(body, loads, trial);
         let energy = self.contact_energy(body, surfaces);
-        let room = match self.glue.is_empty() {
-            true => (1.0 - self.short.abs() / (UNBALANCED * energy)).max(0.0),
+        let room = match self.adheres() {
+            false => (1.0 - self.short.abs() / (UNBALANCED * energy)).max(0.0),
             // What adhesion gives and takes is no part of that energy.
-            false => 1.0,
+            true => 1.0,
         };
         let allowed = SHORT_STEP * self.settings.accuracy * room * room * energy;
         short.abs() - self.short.abs() > allowed
@@ -51,7 +51,7 @@ impl Integrator {
         surfaces: &[Placed<'_>],
     ) -> Result<(), PhysicsError> {
         let short = self.short;
-        if short == 0.0 || !self.pays_alone(surfaces) {
+        if short == 0.0 || !self.pays_alone() {
             return Ok(());
         }
         let energy = self.contact_energy(body, surfaces);
@@ -62,9 +62,8 @@ impl Integrator {
     }
 
     /// True where nobody but the body pays: dashpots do, carriers, and what leads a body.
-    fn pays_alone(&self, surfaces: &[Placed<'_>]) -> bool {
-        let at_rest = surfaces.iter().all(|placed| placed.carrier.is_none());
-        at_rest && !self.is_damped && !self.dynamics.is_immovable()
+    fn pays_alone(&self) -> bool {
+        self.surfaces_rest() && !self.is_damped && !self.dynamics.is_immovable()
     }
 
     /// Counts what loads exchange with the body over a trial.

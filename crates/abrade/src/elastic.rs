@@ -20,8 +20,14 @@ pub(crate) trait Elastic: Copy {
     /// dF/dd [N/m].
     fn normal_stiffness(self, coefficient: f64, overlap: f64, area: f64) -> f64;
 
+    /// Stiffness of the tangential spring over the normal one [-], the same at any overlap.
+    fn tangential_ratio(self) -> f64;
+
     /// Stiffness [N/m] of the tangential spring: T = k xi.
-    fn tangential_stiffness(self, coefficient: f64, overlap: f64, area: f64) -> f64;
+    #[inline(always)]
+    fn tangential_stiffness(self, coefficient: f64, overlap: f64, area: f64) -> f64 {
+        self.tangential_ratio() * self.normal_stiffness(coefficient, overlap, area)
+    }
 
     /// Energy [J] of the normal spring.
     fn normal_energy(self, coefficient: f64, overlap: f64, area: f64) -> f64;
@@ -37,10 +43,10 @@ pub(crate) struct Foundation {
     pub tangential_ratio: f64,
 }
 
-/// Hertz nodes: F = K sqrt(R_eff) d^1.5, T = k_t sqrt(R_eff d) xi.
+/// Hertz nodes: F = K sqrt(R_eff) d^1.5, dF/dd = 3/2 K sqrt(R_eff d), T = k_t sqrt(R_eff d) xi.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct HertzNodes {
-    /// k_t / K = 3 (1 - nu) / (2 - nu), from K = 2E/(3(1-nu^2)) and k_t = 4G/(2-nu).
+    /// k_t / (3/2 K) = 2 (1 - nu) / (2 - nu), from K = 2E/(3(1-nu^2)) and k_t = 4G/(2-nu).
     pub tangential_ratio: f64,
 }
 
@@ -58,8 +64,8 @@ impl Elastic for Foundation {
     }
 
     #[inline(always)]
-    fn tangential_stiffness(self, coefficient: f64, _: f64, area: f64) -> f64 {
-        self.tangential_ratio * coefficient * area
+    fn tangential_ratio(self) -> f64 {
+        self.tangential_ratio
     }
 
     #[inline(always)]
@@ -86,8 +92,8 @@ impl Elastic for HertzNodes {
     }
 
     #[inline(always)]
-    fn tangential_stiffness(self, coefficient: f64, overlap: f64, _: f64) -> f64 {
-        self.tangential_ratio * coefficient * overlap.sqrt()
+    fn tangential_ratio(self) -> f64 {
+        self.tangential_ratio
     }
 
     #[inline(always)]
@@ -119,8 +125,8 @@ impl<E: Elastic> Elastic for Smooth<E> {
     }
 
     #[inline(always)]
-    fn tangential_stiffness(self, coefficient: f64, overlap: f64, area: f64) -> f64 {
-        self.0.tangential_stiffness(coefficient, overlap, area)
+    fn tangential_ratio(self) -> f64 {
+        self.0.tangential_ratio()
     }
 
     #[inline(always)]
@@ -135,14 +141,19 @@ impl<E: Elastic> Elastic for Smooth<E> {
 
 impl Foundation {
     pub(crate) fn new(poisson: f64) -> Self {
-        Self { tangential_ratio: 2.0 * (1.0 - poisson) / (2.0 - poisson) }
+        Self { tangential_ratio: tangential_ratio(poisson) }
     }
 }
 
 impl HertzNodes {
     pub(crate) fn new(poisson: f64) -> Self {
-        Self { tangential_ratio: 3.0 * (1.0 - poisson) / (2.0 - poisson) }
+        Self { tangential_ratio: tangential_ratio(poisson) }
     }
+}
+
+/// Stiffness of a contact sideways over that along its normal (Mindlin) [-].
+fn tangential_ratio(poisson: f64) -> f64 {
+    2.0 * (1.0 - poisson) / (2.0 - poisson)
 }
 
 /// Range of the calibrated yield overlap H/k_w, in reference radii.

@@ -115,8 +115,7 @@ impl Integrator {
             return false;
         }
         let is_led = self.dynamics.is_guided() || self.dynamics.is_immovable();
-        let at_rest = surfaces.iter().all(|placed| placed.carrier.is_none());
-        if is_led || !at_rest || *loads != Loads::default() {
+        if is_led || !self.surfaces_rest() || *loads != Loads::default() {
             return false;
         }
         let Pull { force, torque, .. } = &self.pull;
@@ -128,7 +127,9 @@ impl Integrator {
 
     /// Kinetic energy of a body over the material that it leans on most [J].
     pub(crate) fn relative_energy(&self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
-        let [below, _] = self.motion_below(body, surfaces);
+        let Some([below, _]) = self.motion_below(body, surfaces) else {
+            return body.inertia.kinetic_energy(&body.state);
+        };
         let velocity = body.state.velocity - below;
         body.inertia.kinetic_energy(&State { velocity, ..body.state })
     }

@@ -44,7 +44,7 @@ impl Surface {
 
     /// H [Pa] of node `i`.
     pub fn hardness(&self, i: usize) -> f64 {
-        self.laws().material.hardness * f64::from(self.hardness_factor(i))
+        self.laws().material.hardness * self.hardness_factor(i)
     }
 
     /// H [Pa] of the softest node.
@@ -53,8 +53,8 @@ impl Surface {
     }
 
     #[inline]
-    pub(crate) fn hardness_factor(&self, i: usize) -> f32 {
-        self.hardness_map.as_ref().map_or(1.0, |map| map.factors[i])
+    pub(crate) fn hardness_factor(&self, i: usize) -> f64 {
+        self.hardness_map.as_ref().map_or(1.0, |map| f64::from(map.factors[i]))
     }
 
     pub(crate) fn least_hardness_factor(&self) -> f64 {

@@ -97,7 +97,7 @@ impl<E: Elastic, F: Flow, Q: Query, G: Ground> InnerLoop<'_, E, F, Q, G> {
                 node.heading = self.motion.heading(&arm, &slot.n);
             }
             (node.x, node.n, node.area) = (slot.x, slot.n, self.ground.area(slot.area));
-            let flow = self.flow.times(f64::from(slot.factor));
+            let flow = self.flow.times(slot.factor);
             match resolve(self.ground, &flow, &mut node, old, self.motion) {
                 Some(mut answer) => {
                     sum.take(&answer, &node);
@@ -113,6 +113,7 @@ impl<E: Elastic, F: Flow, Q: Query, G: Ground> InnerLoop<'_, E, F, Q, G> {
                 }
             }
         }
+        sum.tangential_stiffness = self.elastic.tangential_ratio() * sum.normal_stiffness;
         sum
     }
 }
@@ -129,8 +130,6 @@ impl Reaction {
         self.torque -= k.touch.arm.cross(&force);
         self.normal_stiffness +=
             node.elastic.normal_stiffness(coefficient, spring.overlap, node.area);
-        self.tangential_stiffness +=
-            node.elastic.tangential_stiffness(coefficient, spring.overlap, node.area);
         self.normal_load += k.normal_load;
         self.push += node.n * k.normal_load;
         if spring.drop.normal > 0.0 {

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use crate::adhesion::{Attraction, Glue};
 use crate::balance::Balance;
 use crate::body::Body;
-use crate::carrier::{Answer, Hand, Ride, flight_limit};
+use crate::carrier::flight_limit;
 use crate::contact::Contact;
 use crate::damping::{Damping, Dashpots};
 use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Skin, Until};
@@ -18,6 +18,7 @@ use crate::exit::engulfed;
 use crate::flight::{acceleration, free_time, time_to_close, top_speed};
 use crate::ledger::Ledger;
 use crate::reject::{OVERLAP_STEP, rejected};
+use crate::ride::{Answer, Hand, Ride};
 use crate::rotation::Dynamics;
 use crate::settle::Pull;
 #[cfg(feature = "state")]
@@ -264,10 +265,13 @@ impl Integrator {
         let push = self.pull.push;
         let direction = push / push.norm().max(f64::MIN_POSITIVE);
         let net = self.pull.force + loads.pull(&body.inertia);
-        let [velocity, acceleration] = self.motion_below(body, surfaces);
-        let approach = -(body.state.velocity - velocity).dot(&direction);
-        let slowing = net.dot(&direction) * self.dynamics.inverse_mass;
-        let turn = approach / (slowing - acceleration.dot(&direction));
+        let mut approach = -body.state.velocity.dot(&direction);
+        let mut slowing = net.dot(&direction) * self.dynamics.inverse_mass;
+        if let Some([velocity, acceleration]) = self.motion_below(body, surfaces) {
+            approach += velocity.dot(&direction);
+            slowing -= acceleration.dot(&direction);
+        }
+        let turn = approach / slowing;
         if turn > TURN * self.next_dt && turn < self.next_dt { turn } else { self.next_dt }
     }
 
@@ -278,8 +282,10 @@ impl Integrator {
         surfaces: &[Placed<'_>],
         loads: &Loads,
     ) -> (f64, bool) {
-        let limit = self.sweep_limit(body, surfaces, loads);
-        let limit = limit.min(self.adhesion_limit(body, surfaces, loads, &self.pull.drawn.force));
+        let mut limit = self.sweep_limit(body, surfaces, loads);
+        if self.adheres() {
+            limit = limit.min(self.adhesion_limit(body, surfaces, loads, &self.pull.drawn.force));
+        }
         if self.touching {
             return (self.contact_step(body, surfaces, loads).min(limit), false);
         }
@@ -337,12 +343,15 @@ impl Integrator {
             }
             let trial = self.trial(body, surfaces, loads, dt, flight);
             done.node_evaluations += trial.evaluations;
-            if !(self.is_finite(&trial) && self.rides.iter().flatten().all(|r| r.end.is_finite())) {
+            if !self.is_finite(&trial) {
                 return Err(PhysicsError::NotFinite { time: done.contact_time });
             }
             let omega = self.omega(&trial).max(self.damping.rate);
-            let drawn = self.adhesion_limit(body, surfaces, loads, &self.attraction.grip.force);
-            let allowed = (self.eta / omega).min(self.led_limit(body, surfaces)).min(drawn);
+            let mut allowed = (self.eta / omega).min(self.led_limit(body, surfaces));
+            if self.adheres() {
+                let drawn = &self.attraction.grip.force;
+                allowed = allowed.min(self.adhesion_limit(body, surfaces, loads, drawn));
+            }
             if let Some(smaller) = rejected(&trial, dt, allowed) {
                 if dt < f64::MIN_POSITIVE / f64::EPSILON {
                     return Err(PhysicsError::StepVanished { step: dt });

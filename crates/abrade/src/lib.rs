@@ -61,6 +61,7 @@ mod query;
 mod reject;
 mod renewal;
 mod reweigh;
+mod ride;
 mod rotation;
 mod sag;
 mod settle;

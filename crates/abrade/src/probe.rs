@@ -40,7 +40,7 @@ pub struct Candidate {
     /// Area [m2].
     pub area: f64,
     /// Hardness over that of the material [-].
-    pub factor: f32,
+    pub factor: f64,
     /// Of springs: tangential stretch [m], overlap [m], lateral load less its cap [N].
     pub stretch: Vector3<f64>,
     /// Overlap, or compression of a column's spring [m].

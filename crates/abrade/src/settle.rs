@@ -47,15 +47,21 @@ pub(crate) struct Charge {
     pub forgiven: f64,
 }
 
+impl Pull {
+    /// Adds what adhesion does.
+    fn draw(&mut self, drawn: &Grip) {
+        self.force += drawn.force;
+        self.torque += drawn.torque;
+        self.drawn = *drawn;
+    }
+}
+
 /// The accepted end of a step.
 pub(crate) struct Settled {
     pub state: State,
-    pub pull: Pull,
     pub impulse: Vector3<f64>,
     /// Torque of the contacts about the centre of mass over the step [N m s].
     pub twist: Vector3<f64>,
-    /// Stored energy, and increments of the dissipated ones, if they are kept.
-    pub ledger: Option<Ledger>,
 }
 
 impl Integrator {
@@ -118,12 +124,18 @@ impl Integrator {
             return 0.0;
         }
         let [velocity, spin] = self.foreseen;
-        let work =
-            loads.pull(&body.inertia).dot(&velocity) + self.dynamics.work(&loads.torque, &spin);
-        -work * dt
+        let work = |impulse: &Vector3<f64>, torque: &Vector3<f64>| {
+            impulse.dot(&velocity) + self.dynamics.work(torque, &spin)
+        };
+        let by_loads = work(&loads.pull(&body.inertia), &loads.torque) * dt;
+        match self.adheres() {
+            false => -by_loads,
+            true => -by_loads - work(&self.attraction.push.impulse, &self.attraction.push.torque),
+        }
     }
 
-    /// Commits a trial: second kick, projection, nodes.
+    /// Commits a trial: second kick, projection, nodes. What it has cost is booked for the step, if
+    /// energies are kept.
     pub(crate) fn settle(
         &mut self,
         body: &Body,
@@ -136,7 +148,7 @@ impl Integrator {
         let springs = &trial.springs;
         self.kick(body, loads, &springs.force, &springs.torque, 0.5 * dt, &mut state);
         self.kick_carriers(surfaces, &state, 0.5 * dt);
-        if !self.glue.is_empty() {
+        if self.adheres() {
             self.react(&state, |answer| answer.drawn);
         }
         let gained = [self.give_back(), self.ahead_of_loads(body, loads, dt)];
@@ -157,32 +169,38 @@ impl Integrator {
         }
         self.short = short;
         let (elastic, push) = self.commit(surfaces, trial, share);
-        let [adhesion, left] = self.adhere(body, surfaces);
-        let drawn = self.attraction.grip;
-        let pull = Pull {
-            force: springs.force + drawn.force + impulse / dt,
-            torque: springs.torque + drawn.torque + torque / dt,
-            drawn,
+        let mut pull = Pull {
+            force: springs.force + impulse / dt,
+            torque: springs.torque + torque / dt,
+            drawn: Grip::default(),
             spring_force: springs.force,
             spring_torque: springs.torque,
             push,
         };
+        let [mut adhesion, mut left] = [0.0; 2];
+        if self.adheres() {
+            [adhesion, left] = self.adhere(body, surfaces);
+            pull.draw(&self.attraction.grip);
+            impulse += self.attraction.push.impulse;
+            torque += self.attraction.push.torque;
+        }
         let external_work = self.hold_on(body, surfaces, &state, dt);
-        let ledger = self.keeps_ledger().then(|| Ledger {
-            elastic,
-            friction: self.booked.friction + toll.spring.friction + flow_friction,
-            damping: half.map_or(0.0, |_| self.damping.dissipated),
-            wear: self.booked.wear + toll.archard + toll.wear * share,
-            history: self.booked.history + toll.lost - forgiven - left,
-            adhesion,
-            external_work,
-            ..Ledger::default()
-        });
-        impulse += self.attraction.push.impulse;
-        torque += self.attraction.push.torque;
-        let mean = (self.pull.spring_force + springs.force) * (0.5 * dt);
+        if self.keeps_ledger() {
+            self.booked = Ledger {
+                elastic,
+                friction: self.booked.friction + toll.spring.friction + flow_friction,
+                damping: half.map_or(0.0, |_| self.damping.dissipated),
+                wear: self.booked.wear + toll.archard + toll.wear * share,
+                history: self.booked.history + toll.lost - forgiven - left,
+                adhesion,
+                external_work,
+                ..Ledger::default()
+            };
+        }
+        impulse += (self.pull.spring_force + springs.force) * (0.5 * dt);
         let twist = (self.pull.spring_torque + springs.torque) * (0.5 * dt) + torque;
-        Settled { state, pull, impulse: mean + impulse, twist, ledger }
+        self.pull = pull;
+        Settled { state, impulse, twist }
     }
 
     /// Makes a trial the nodes' state; a blocked body takes a `share` of the swept columns.

@@ -16,8 +16,19 @@ impl Surface {
     /// Begins to note which nodes sink, from none. A leaf notes none; whoever applies its changes
     /// to the surface below has them noted there.
     pub fn watch(&mut self) {
+        if self.leaf.is_some() {
+            return;
+        }
         let count = self.nodes.len();
         self.sunk.get_or_insert_with(|| Box::new(Sunk::new(count))).clear();
+    }
+
+    /// Notes that node `id` has sunk, if somebody watches.
+    #[inline(always)]
+    pub(crate) fn note_sunk(&mut self, id: u32) {
+        if let Some(sunk) = &mut self.sunk {
+            sunk.note(id);
+        }
     }
 
     /// The nodes that are not where they were at the last [`Surface::watch`], each once; after a

@@ -55,7 +55,7 @@ pub struct Surface {
     /// Empty for a leaf, as the grid.
     pub(crate) nodes: Nodes,
     pub(crate) grid: Grid,
-    leaf: Option<Box<Leaf>>,
+    pub(crate) leaf: Option<Box<Leaf>>,
     /// What was worn before the last renewal; None before the first.
     pub(crate) past: Option<Arc<Past>>,
     /// Largest depth of a node since the last renewal [m].
@@ -405,9 +405,6 @@ impl Surface {
             None => {
                 let depth = &mut self.nodes.depth[id as usize];
                 *depth += drop;
-                if let Some(sunk) = &mut self.sunk {
-                    sunk.note(id);
-                }
                 *depth
             }
             Some(leaf) => leaf.sink(id, drop),
@@ -415,6 +412,8 @@ impl Surface {
         self.deepest = self.deepest.max(depth);
         let depth = depth + self.past_depth(id as usize);
         self.gain.max_depth = self.gain.max_depth.max(depth);
+        // Last, so that a surface that nobody watches pays no more than the question.
+        self.note_sunk(id);
     }
 
     /// W_V [m3] = sum of rest_area * depth (Eq. 6), chips included, over all renewals.

@@ -5,7 +5,6 @@ use nalgebra::Vector3;
 use crate::adhesion::Attraction;
 use crate::body::{Body, State};
 use crate::carried::Grip;
-use crate::carrier::Ride;
 use crate::contact::Contact;
 use crate::debt::unpaid;
 use crate::encounter::{Loads, Placed};
@@ -15,6 +14,7 @@ use crate::integrate::Integrator;
 use crate::ledger::Ledger;
 use crate::node_law::Motion;
 use crate::projection::balance_ahead;
+use crate::ride::Ride;
 use crate::rotation::Dynamics;
 use crate::toll::{Push, Toll};
 
@@ -108,7 +108,10 @@ impl Integrator {
 
     /// False for a last `trial` in which something is not a number.
     pub(crate) fn is_finite(&self, trial: &Trial) -> bool {
-        trial.is_finite() && (self.glue.is_empty() || self.attraction.is_finite())
+        trial.is_finite()
+            && (!self.adheres() || self.attraction.is_finite())
+            && (self.surfaces_rest()
+                || self.rides.iter().flatten().all(|ride| ride.end.is_finite()))
     }
 
     pub(crate) fn trial(
@@ -127,7 +130,7 @@ impl Integrator {
         state.velocity += swept.velocity;
         state.spin += swept.spin;
         self.foreseen = [swept.velocity, swept.spin];
-        let adheres = !self.glue.is_empty();
+        let adheres = self.adheres();
         if adheres {
             let drawn = self.pull.drawn * half;
             state.velocity += self.dynamics.accelerate(&drawn.force);
@@ -138,7 +141,7 @@ impl Integrator {
         let spin = self.dynamics.drift(&mut state, dt);
         state.velocity = kicked.velocity;
         state.spin += kicked.spin - predicted;
-        if !self.rides.is_empty() {
+        if !self.surfaces_rest() {
             let momentum = |s: &State| self.dynamics.angular_momentum(&s.rotation, &s.spin);
             if !self.dynamics.is_immovable() {
                 self.ahead += (velocity * dt).cross(&kicked.velocity) * body.inertia.mass;
@@ -182,7 +185,7 @@ impl Integrator {
             overlap_change: 0.0,
             flight: surfaces.is_empty(),
         };
-        if !self.glue.is_empty() {
+        if self.adheres() {
             self.attraction = Attraction::default();
         }
         let reach = (velocity.norm() + spin.norm() * body.shape.bounding_radius()) * dt;
@@ -192,8 +195,8 @@ impl Integrator {
         }
         for (i, (contact, placed)) in self.contacts.iter_mut().zip(surfaces).enumerate() {
             let ride = self.rides.get(i).and_then(Option::as_ref);
-            let pose = ride.map_or(placed.pose, |ride| ride.pose);
-            let end = state.seen_from(&pose);
+            let pose = ride.map_or(&placed.pose, |ride| &ride.pose);
+            let end = state.seen_from(pose);
             let motion = match ride {
                 None => {
                     let local = |v: &Vector3<f64>| placed.pose.inverse_transform_vector(v);
@@ -212,9 +215,9 @@ impl Integrator {
             match contact {
                 Contact::Springs(patch) => {
                     let reaction = patch.trial(placed.surface.laws(), &end, &motion);
-                    trial.springs.add(reaction, &pose);
+                    trial.springs.add(reaction, pose);
                     if ride.is_some() {
-                        self.answers[i].springs = reaction.grip().turned(&pose);
+                        self.answers[i].springs = reaction.grip().turned(pose);
                     }
                     if keeps_ledger {
                         self.booked += patch.ledger();
@@ -223,31 +226,32 @@ impl Integrator {
                 Contact::Mutual(mutual) => {
                     let levers = body.shape.bounding_radius();
                     let reaction = mutual.trial(placed, &end, &motion, levers);
-                    trial.springs.add(&reaction, &pose);
+                    trial.springs.add(&reaction, pose);
                     if keeps_ledger {
                         self.booked += mutual.ledger();
                     }
                     if ride.is_some() {
-                        self.answers[i].springs = reaction.grip().turned(&pose);
+                        self.answers[i].springs = reaction.grip().turned(pose);
                     }
                 }
                 Contact::Columns(columns) => {
                     let start = body.state.seen_from(&placed.pose);
                     let poses = [&start, &end];
                     let toll = columns.trial(placed.surface, &body.shape, poses, &motion);
-                    let pose = ride.map_or(pose, Ride::middle);
-                    trial.toll.add(toll, &pose);
+                    let middle = ride.map(Ride::middle);
+                    let pose = middle.as_ref().unwrap_or(pose);
+                    trial.toll.add(toll, pose);
                     if ride.is_some() {
-                        self.answers[i].flow.add(&toll.flow, &pose);
-                        self.answers[i].sprung.add(&toll.spring, &pose);
+                        self.answers[i].flow.add(&toll.flow, pose);
+                        self.answers[i].sprung.add(&toll.spring, pose);
                     }
                 }
             }
             if let Some(glue) = self.glue.get_mut(i).and_then(Option::as_mut) {
                 let drawn = glue.trial(placed.surface, &body.shape, &end, &motion);
-                self.attraction.add(drawn, &pose);
+                self.attraction.add(drawn, pose);
                 if ride.is_some() {
-                    self.answers[i].drawn.add(&drawn.push, &pose);
+                    self.answers[i].drawn.add(&drawn.push, pose);
                 }
             }
         }

@@ -122,8 +122,8 @@ impl Bare for BareBall {
                 stiffness: [stiffness, laws.tangential_ratio * stiffness],
                 heading,
                 laws: Laws {
-                    hardness: laws.hardness * f64::from(old.factor),
-                    shear_hardness: laws.shear_hardness * f64::from(old.factor),
+                    hardness: laws.hardness * old.factor,
+                    shear_hardness: laws.shear_hardness * old.factor,
                     ..*laws
                 },
             };

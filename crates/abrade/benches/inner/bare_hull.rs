@@ -190,7 +190,7 @@ impl Step<'_> {
         if low >= open && column.overlap == 0.0 {
             return false;
         }
-        let lift = self.laws.hardness / self.stiffness * f64::from(column.factor);
+        let lift = self.laws.hardness / self.stiffness * column.factor;
         let (from, to) = (low + lift, (high + lift).min(0.0));
         let (mut length, mut lateral, mut attack) = (0.0, 0.0, 0.0);
         if from < 0.0 {
@@ -261,7 +261,7 @@ impl Step<'_> {
             let lateral = (shear_hardness / (sine.max(0.0) + friction * cosine)).min(normal);
             (normal + share * (lateral - normal), share)
         };
-        let energy = price * f64::from(column.factor) * column.area * length;
+        let energy = price * column.factor * column.area * length;
         sum.wear += energy;
         self.press(&m, &arm, &moved, energy / displacement, 0, sum);
         [share, sine]

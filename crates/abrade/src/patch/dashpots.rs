@@ -59,7 +59,7 @@ impl Patch {
                     _ => 0.5 * (before + after),
                 },
                 advance: new.overlap - old.overlap + new.drop.archard * cosine,
-                cap: slot.area * hardness * f64::from(slot.factor) / cosine.max(STEEP),
+                cap: slot.area * hardness * slot.factor / cosine.max(STEEP),
                 stored,
                 stiffness: elastic.normal_stiffness(touch.coefficient, new.overlap, slot.area),
                 shear: shear(elastic, &touch, slot.area, [old, new], friction),
