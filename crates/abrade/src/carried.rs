@@ -170,7 +170,7 @@ impl Carried {
         dynamics.drift(&mut end, dt);
         let trial = self.integrator.ask(body, surfaces, &end, Course { velocity, spin, dt });
         let mut state = body.state;
-        let charge = self.integrator.charge(&trial.toll, [0.0; 2], &mut state);
+        let charge = self.integrator.charge(&trial.toll, 0.0, &mut state);
         let drawn = self.integrator.attraction.mean(dt);
         let swept = Grip {
             force: charge.impulse / dt + drawn.force,

@@ -2,10 +2,11 @@
 //! paid by it, step by step, as far as their impulse can. It cannot where friction would turn a slip
 //! back within the step, nor where a face comes upon a whole column at once.
 
-use crate::body::Body;
+use crate::body::{Body, State};
 use crate::encounter::{Loads, Placed};
 use crate::error::PhysicsError;
 use crate::integrate::Integrator;
+use crate::toll::Toll;
 use crate::trial::Trial;
 
 /// Share of a contact's energy, times the accuracy, by which a step may bring the springs out of
@@ -35,11 +36,7 @@ impl Integrator {
         }
         let short = self.foreseen_short(body, loads, trial);
         let energy = self.contact_energy(body, surfaces);
-        let room = match self.adheres() {
-            false => (1.0 - self.short.abs() / (UNBALANCED * energy)).max(0.0),
-            // What adhesion gives and takes is no part of that energy.
-            true => 1.0,
-        };
+        let room = (1.0 - self.short.abs() / (UNBALANCED * energy)).max(0.0);
         let allowed = SHORT_STEP * self.settings.accuracy * room * room * energy;
         short.abs() - self.short.abs() > allowed
     }
@@ -66,15 +63,29 @@ impl Integrator {
         self.surfaces_rest() && !self.is_damped && !self.dynamics.is_immovable()
     }
 
+    /// Energy that adhesion gives in a step more than its own falls by [J], of a body in `state` half-way
+    /// through its push: springs under faces take it back. Zero where a surface moves.
+    pub(crate) fn given_over(&self, toll: &Toll, state: &State) -> f64 {
+        if !self.adheres() || !self.has_sprung_columns() || !self.surfaces_rest() {
+            return 0.0;
+        }
+        let (push, springs) = (&self.attraction.push, toll.spring.scaled(0.5));
+        let velocity = state.velocity + self.dynamics.accelerate(&springs.impulse);
+        let spin = state.spin + self.dynamics.turn(&state.rotation, &springs.torque);
+        let given = push.impulse.dot(&velocity) + self.dynamics.work(&push.torque, &spin);
+        given + self.attraction.energy
+    }
+
     /// Counts what loads exchange with the body over a trial.
     pub(crate) fn supply(&mut self, body: &Body, loads: &Loads, trial: &Trial) {
         self.supplied += loads.pull(&body.inertia).dot(&trial.shift).abs()
             + self.dynamics.work(&loads.torque, &trial.turn).abs();
     }
 
-    /// Energy that the body brought, or that somebody gave it since, and that loads have exchanged
-    /// with it [J].
+    /// Energy that the body brought, or that somebody gave it since, what loads have exchanged with
+    /// it, and what adhesion has given it [J].
     fn contact_energy(&self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
-        self.energy_before.max(self.relative_energy(body, surfaces)) + self.supplied
+        let drawn: f64 = self.glue.iter().flatten().map(|glue| -glue.energy()).sum();
+        self.energy_before.max(self.relative_energy(body, surfaces)) + self.supplied + drawn
     }
 }

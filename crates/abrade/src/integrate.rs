@@ -76,10 +76,6 @@ pub(crate) struct Integrator {
     /// Angular momentum that placing the end of the last trial ahead of the balance made [N m s].
     #[cfg_attr(feature = "state", serde(skip))]
     pub(crate) ahead: Vector3<f64>,
-    /// What columns and dashpots were foreseen to change the velocity [m/s] and spin [rad/s] by over the
-    /// first half of the last trial.
-    #[cfg_attr(feature = "state", serde(skip))]
-    pub(crate) foreseen: [Vector3<f64>; 2],
     /// True when a surface damps the body; what its dashpots do over the last trial, and the
     /// springs that they stand beside.
     pub(crate) is_damped: bool,
@@ -163,7 +159,6 @@ impl Integrator {
             rides: Vec::new(),
             answers: Vec::new(),
             ahead: Vector3::zeros(),
-            foreseen: [Vector3::zeros(); 2],
             balance: None,
             short: 0.0,
             supplied: 0.0,

@@ -250,19 +250,22 @@ impl Integrator {
         }
     }
 
+    /// Begins to sum up the impulses of a step.
+    pub(crate) fn begin_hands(&mut self) {
+        self.hands.iter_mut().for_each(|hand| hand.swept = Grip::default());
+    }
+
     /// The second half of the carriers' kick by springs that hold the body at `state`.
     pub(crate) fn kick_carriers(&mut self, surfaces: &[Placed<'_>], state: &State, half: f64) {
         if self.surfaces_rest() {
             return;
         }
         let carriers = surfaces.iter().zip(&mut self.rides).zip(&self.answers);
-        for (((placed, ride), answer), hand) in carriers.zip(&mut self.hands) {
+        for ((placed, ride), answer) in carriers {
             let (Some(carrier), Some(ride)) = (&placed.carrier, ride) else { continue };
             let mut end = ride.end;
             ride.kick(&reaction(&answer.springs, state, &end), &carrier.loads, half, &mut end);
             ride.end = end;
-            // Sums up the impulses of the step.
-            hand.swept = Grip::default();
         }
     }
 

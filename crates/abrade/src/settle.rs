@@ -9,7 +9,7 @@ use crate::debt::unpaid;
 use crate::encounter::{Loads, Placed};
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
-use crate::projection::{Payment, balance_ahead, pay};
+use crate::projection::{Payment, balance, pay};
 #[cfg(feature = "state")]
 use crate::state::finite;
 use crate::toll::Toll;
@@ -73,13 +73,8 @@ impl Integrator {
 
     /// Takes what columns cost from a body in `state` and the carriers, closed by the energy
     /// projection. A guided body is paid for by what leads it: nothing is scaled.
-    /// A `gain` [J] of the energy is taken with the wear, and what loads gave `ahead` [J] by the springs.
-    pub(crate) fn charge(
-        &mut self,
-        toll: &Toll,
-        [gain, ahead]: [f64; 2],
-        state: &mut State,
-    ) -> Charge {
+    /// A `gain` [J] of the energy is taken with the wear, or with what springs take.
+    pub(crate) fn charge(&mut self, toll: &Toll, gain: f64, state: &mut State) -> Charge {
         let has_columns = self.contacts.iter().any(|c| matches!(c, Contact::Columns(_)));
         if !has_columns && gain == 0.0 && self.short == 0.0 {
             return Charge { share: 1.0, ..Charge::default() };
@@ -88,12 +83,12 @@ impl Integrator {
         let flow_cost = toll.wear + toll.flow.friction;
         let (flow_gain, spring_gain) = if flow_cost > 0.0 { (gain, 0.0) } else { (0.0, gain) };
         let forgiven = if guided { 0.0 } else { unpaid(toll.lost, self.short) };
-        let cost = self.owed(toll, forgiven) + spring_gain;
+        let cost = self.owed(toll, forgiven) + spring_gain + self.given_over(toll, state);
         let (scale, short) = match guided {
             true => (1.0, 0.0),
             false => {
                 let change = self.change(&toll.spring, state, |answer| &answer.sprung);
-                balance_ahead(change, cost, ahead)
+                balance(change, cost)
             }
         };
         let sprung = toll.spring.scaled(scale);
@@ -117,20 +112,21 @@ impl Integrator {
         }
     }
 
-    /// Energy that the kicks of `loads` have given over a trial more than their work on its way [J]:
-    /// what columns do places the end of the step, ahead of the balance in which they do it.
-    pub(crate) fn ahead_of_loads(&self, body: &Body, loads: &Loads, dt: f64) -> f64 {
-        if !self.has_sprung_columns() {
-            return 0.0;
+    /// True where faces without springs have the last word in a step: a body that they block ends it at
+    /// rest.
+    pub(crate) fn ends_blocked(&self) -> bool {
+        self.contacts.iter().any(Contact::is_rigid)
+    }
+
+    /// Half of what dashpots and adhesion did over the last trial.
+    fn apply_halves(&mut self, state: &mut State) {
+        if self.is_damped {
+            self.apply(&self.damping.half(), state);
+            self.react(state, |answer| answer.damping.scaled(0.5));
         }
-        let [velocity, spin] = self.foreseen;
-        let work = |impulse: &Vector3<f64>, torque: &Vector3<f64>| {
-            impulse.dot(&velocity) + self.dynamics.work(torque, &spin)
-        };
-        let by_loads = work(&loads.pull(&body.inertia), &loads.torque) * dt;
-        match self.adheres() {
-            false => -by_loads,
-            true => -by_loads - work(&self.attraction.push.impulse, &self.attraction.push.torque),
+        if self.adheres() {
+            self.apply(&self.attraction.push.scaled(0.5), state);
+            self.react(state, |answer| answer.drawn.scaled(0.5));
         }
     }
 
@@ -145,25 +141,27 @@ impl Integrator {
         trial: &Trial,
     ) -> Settled {
         let mut state = trial.state;
-        let springs = &trial.springs;
-        self.kick(body, loads, &springs.force, &springs.torque, 0.5 * dt, &mut state);
-        self.kick_carriers(surfaces, &state, 0.5 * dt);
-        if self.adheres() {
-            self.react(&state, |answer| answer.drawn);
+        let (springs, toll) = (&trial.springs, &trial.toll);
+        let kick = |this: &mut Self, state: &mut State| {
+            this.kick(body, loads, &springs.force, &springs.torque, 0.5 * dt, state);
+            this.kick_carriers(surfaces, state, 0.5 * dt);
+        };
+        self.begin_hands();
+        // What acts over the step has its place between the kicks, in halves around the faces: it works
+        // at the mean velocity of the step.
+        let ends_blocked = self.ends_blocked();
+        if ends_blocked {
+            kick(self, &mut state);
         }
-        let gained = [self.give_back(), self.ahead_of_loads(body, loads, dt)];
-        let toll = &trial.toll;
-        // The dashpots in halves around the springs: work at the mean velocity of the step.
-        let half = self.is_damped.then(|| self.damping.half());
-        if let Some(half) = &half {
-            self.apply(half, &mut state);
-            self.react(&state, |answer| answer.damping.scaled(0.5));
-        }
+        let gained = self.give_back();
+        self.apply_halves(&mut state);
         let Charge { mut impulse, mut torque, flow_friction, share, short, forgiven } =
             self.charge(toll, gained, &mut state);
-        if let Some(half) = &half {
-            self.apply(half, &mut state);
-            self.react(&state, |answer| answer.damping.scaled(0.5));
+        self.apply_halves(&mut state);
+        if !ends_blocked {
+            kick(self, &mut state);
+        }
+        if self.is_damped {
             impulse += self.damping.impulse;
             torque += self.damping.torque;
         }
@@ -189,7 +187,7 @@ impl Integrator {
             self.booked = Ledger {
                 elastic,
                 friction: self.booked.friction + toll.spring.friction + flow_friction,
-                damping: half.map_or(0.0, |_| self.damping.dissipated),
+                damping: if self.is_damped { self.damping.dissipated } else { 0.0 },
                 wear: self.booked.wear + toll.archard + toll.wear * share,
                 history: self.booked.history + toll.lost - forgiven - left,
                 adhesion,
