@@ -23,7 +23,7 @@ use crate::shape::Shape;
 #[cfg(feature = "state")]
 use crate::state::{Fault, finite, not_negative, require};
 use crate::surface::Surface;
-use crate::sweep::Swept;
+use crate::sweep::{Swept, UNMOVED};
 use crate::toll::Toll;
 
 /// Bisections of the travel after which a column may be touched.
@@ -51,7 +51,7 @@ pub(crate) struct Columns {
     /// How far the body may move from where the candidates were collected before it can touch a
     /// column [m]; None until that is asked for.
     #[cfg_attr(feature = "state", serde(skip))]
-    least_gap: Option<f64>,
+    least_gap: Option<Gap>,
     /// Per candidate, the mark on the body's way before which it cannot come to this column [m].
     marks: Vec<f64>,
     /// The least mark of every `BLOCK` candidates, or less [m].
@@ -61,6 +61,8 @@ pub(crate) struct Columns {
     stood: (State, f64),
     #[cfg_attr(feature = "state", serde(skip))]
     carried: Vec<(Slot, Column)>,
+    #[cfg_attr(feature = "state", serde(skip))]
+    merged: Vec<Slot>,
     /// Of the last trial.
     #[cfg_attr(feature = "state", serde(skip))]
     cuts: Vec<Cut>,
@@ -71,6 +73,14 @@ pub(crate) struct Columns {
     middle: Point3<f64>,
     #[cfg_attr(feature = "state", serde(skip))]
     damping: Vector3<f64>,
+}
+
+/// A least gap between a body and columns [m].
+#[derive(Clone, Copy, Debug)]
+struct Gap {
+    most: f64,
+    /// False where it may be less.
+    is_exact: bool,
 }
 
 impl Columns {
@@ -93,6 +103,7 @@ impl Columns {
             dues: Vec::new(),
             stood: (State::at(Point3::origin()), 0.0),
             carried: Vec::new(),
+            merged: Vec::new(),
             cuts: Vec::new(),
             toll: Toll::default(),
             middle: Point3::origin(),
@@ -111,6 +122,9 @@ impl Columns {
 
     /// Elastic energy stored now [J].
     pub(crate) fn elastic(&self) -> f64 {
+        if self.yield_overlap() == 0.0 {
+            return 0.0;
+        }
         let columns = self.candidates.slots.iter().zip(&self.columns);
         columns.map(|(slot, column)| self.law.stored(slot.area, column.squeeze)).sum()
     }
@@ -119,6 +133,9 @@ impl Columns {
     pub(crate) fn deepest(&mut self, surface: &Surface, shape: &Shape, state: &State) -> f64 {
         self.swept.place(shape, state, state, surface.level());
         let inside = |slot: &Slot| {
+            if self.swept.clearance(&slot.x, &slot.n, 0.0) > 0.0 {
+                return 0.0;
+            }
             let span = self.swept.span(&slot.x, &slot.n, own(surface, slot));
             span.map_or(0.0, |s| if s.high > 0.0 { -s.low } else { 0.0 })
         };
@@ -143,16 +160,8 @@ impl Columns {
         let columns = self.candidates.slots.iter().zip(&self.columns).filter(knows_more);
         self.carried.extend(columns.map(|(slot, column)| (*slot, *column)));
         self.candidates.collect_columns(surface, shape, state, &self.swept, margin);
-        let slots = &mut self.candidates.slots;
-        slots.retain(|slot| self.carried.binary_search_by_key(&slot.id, |(s, _)| s.id).is_err());
-        slots.extend(self.carried.iter().map(|(slot, _)| *slot));
-        slots.sort_unstable_by_key(|slot| slot.id);
-        let mut from = self.carried.iter().peekable();
-        self.columns.clear();
-        self.columns.extend(slots.iter().map(|slot| {
-            from.next_if(|(carried, _)| carried.id == slot.id)
-                .map_or_else(Column::default, |(_, column)| *column)
-        }));
+        self.merge();
+        let slots = &self.candidates.slots;
         self.opens.clear();
         self.opens.extend(self.columns.iter().map(|column| match column.squeeze > 0.0 {
             // A spring is let go as soon as the body is past it.
@@ -168,26 +177,62 @@ impl Columns {
         self.cuts.reserve(slots.len().saturating_sub(self.cuts.len()));
     }
 
-    /// How far the body at `state` may move before it can touch a column [m].
-    pub(crate) fn room(&mut self, surface: &Surface, shape: &Shape, state: &State) -> f64 {
-        let Some((at, margin)) = self.candidates.made else { return 0.0 };
-        let travelled = travel(shape, &at, state);
-        let least = match self.least_gap {
-            Some(least) => least,
-            None => {
-                self.swept.place(shape, &at, &at, surface.level());
-                *self.least_gap.insert(self.find_gap(surface, margin))
+    /// Puts the carried columns in their places between the candidates.
+    fn merge(&mut self) {
+        self.candidates.slots.sort_unstable_by_key(|slot| slot.id);
+        self.columns.clear();
+        self.merged.clear();
+        let mut carried = self.carried.iter().peekable();
+        for slot in &self.candidates.slots {
+            while let Some((before, column)) = carried.next_if(|(next, _)| next.id < slot.id) {
+                self.merged.push(*before);
+                self.columns.push(*column);
             }
-        };
-        (least - travelled).min(margin - travelled).max(0.0)
+            let known = carried.next_if(|(next, _)| next.id == slot.id);
+            let (slot, column) = known.copied().unwrap_or((*slot, Column::default()));
+            self.merged.push(slot);
+            self.columns.push(column);
+        }
+        for (slot, column) in carried {
+            self.merged.push(*slot);
+            self.columns.push(*column);
+        }
+        std::mem::swap(&mut self.candidates.slots, &mut self.merged);
     }
 
-    /// The least gap, of candidates that the swept body has around it, within `margin` [m].
-    fn find_gap(&self, surface: &Surface, margin: f64) -> f64 {
+    /// How far the body at `state` may move before it can touch a column [m], or more than that where it is
+    /// not `enough`.
+    pub(crate) fn room(
+        &mut self,
+        surface: &Surface,
+        shape: &Shape,
+        state: &State,
+        enough: impl Fn(f64) -> bool,
+    ) -> f64 {
+        let Some((at, margin)) = self.candidates.made else { return 0.0 };
+        let travelled = travel(shape, &at, state);
+        let left = |least: f64| (least - travelled).min(margin - travelled).max(0.0);
+        let is_enough = |least: f64| enough(left(least));
+        let gap = match self.least_gap {
+            Some(gap) if gap.is_exact || !is_enough(gap.most) => gap,
+            _ => {
+                self.swept.place(shape, &at, &at, surface.level());
+                *self.least_gap.insert(self.find_gap(surface, margin, is_enough))
+            }
+        };
+        left(gap.most)
+    }
+
+    /// The least gap, of candidates that the swept body has around it, within `margin` [m]. The search ends
+    /// where it is not `enough`.
+    fn find_gap(&self, surface: &Surface, margin: f64, enough: impl Fn(f64) -> bool) -> Gap {
         let mut least = f64::INFINITY;
         for (slot, &open) in self.candidates.slots.iter().zip(&self.opens) {
             if open == PRESSED || least == 0.0 {
-                return 0.0;
+                return Gap { most: 0.0, is_exact: true };
+            }
+            if !enough(least) {
+                return Gap { most: least, is_exact: false };
             }
             let (top, own) = (slot.x - slot.n * open, own(surface, slot));
             if self.swept.meets(&top, &slot.n, least.min(margin), own) {
@@ -196,7 +241,7 @@ impl Columns {
                 least = least.min(margin);
             }
         }
-        least
+        Gap { most: least, is_exact: true }
     }
 
     /// Takes every column through a step; commits nothing.
@@ -257,26 +302,23 @@ impl Columns {
         let blocks = self.marks.chunks_mut(BLOCK).zip(&mut self.dues).enumerate();
         for (block, (marks, due)) in blocks.filter(|(_, (_, due))| **due <= way) {
             for (index, mark) in (block * BLOCK..).zip(&mut *marks).filter(|(_, m)| **m <= way) {
-                let slot = &self.candidates.slots[index];
+                let (slot, column) = (&self.candidates.slots[index], &self.columns[index]);
+                if column.squeeze == 0.0 {
+                    let clear = self.swept.clearance(&slot.x, &slot.n, column.open_depth());
+                    if clear > UNMOVED * step.reach {
+                        // Seen from where the body stood: the step may yet be rejected.
+                        *mark = (before + (clear - (way - before))).max(*mark);
+                        continue;
+                    }
+                }
                 if HEADS && (slot.n != normal || motion.drag.is_some()) {
                     normal = slot.n;
                     step.heading = motion.heading(&(slot.x - step.middle), &normal);
                 }
                 step.own = own(surface, slot);
-                let column = &self.columns[index];
                 let law = &self.law;
-                match law.sweep::<RUBS, HEADS, WEARS>(&step, slot, column, &mut self.toll) {
-                    Some(cut) => self.cuts.push(Cut { index: index as u32, ..cut }),
-                    None => {
-                        let top = slot.x - slot.n * column.open_depth();
-                        let clear = self.swept.clearance(&top, &slot.n);
-                        // Seen from where the body stood: the step may yet be rejected.
-                        let far = before + (clear - (way - before));
-                        if far > way {
-                            *mark = far;
-                        }
-                    }
-                }
+                let cut = law.sweep::<RUBS, HEADS, WEARS>(&step, slot, column, &mut self.toll);
+                self.cuts.extend(cut.map(|cut| Cut { index: index as u32, ..cut }));
             }
             *due = marks.iter().fold(f64::INFINITY, |least, mark| mark.min(least));
         }
@@ -310,7 +352,8 @@ impl Columns {
             column.squeeze = cut.squeeze;
             if cut.squeeze > 0.0 {
                 // The body may come back to where it was when the candidates were collected.
-                (self.opens[index], self.least_gap) = (PRESSED, Some(0.0));
+                (self.opens[index], self.least_gap) =
+                    (PRESSED, Some(Gap { most: 0.0, is_exact: true }));
             }
             for piece in cut.pieces.iter() {
                 let total = share * (piece[1] - piece[0]);

@@ -29,8 +29,8 @@ const MUTUAL_PITCH: f64 = 1.0;
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) enum Contact {
-    Springs(Patch),
-    Columns(Columns),
+    Springs(Box<Patch>),
+    Columns(Box<Columns>),
     /// The body has a worn surface of its own.
     Mutual(Box<Mutual>),
 }
@@ -73,8 +73,8 @@ impl Contact {
             });
         }
         Ok(match rigid || (shape.has_faces() && !hertz) {
-            true => Self::Columns(Columns::new(shape, surface)),
-            false => Self::Springs(Patch::new(shape, surface, keeps_ledger)),
+            true => Self::Columns(Box::new(Columns::new(shape, surface))),
+            false => Self::Springs(Box::new(Patch::new(shape, surface, keeps_ledger))),
         })
     }
 

@@ -14,7 +14,7 @@ use crate::surface::Surface;
 const COLUMNS_PITCH: f64 = 4.0;
 
 /// Time [s] in which a body that moves as `local` as seen from the surface `placed`, with an `acceleration` at
-/// most [m/s2], cannot touch it; zero when it may touch at once.
+/// most [m/s2], cannot touch it; zero when it may touch at once. A time up to `floor` [s] may be too long.
 pub(crate) fn free_time(
     contact: &mut Contact,
     glue: Option<&mut Glue>,
@@ -22,6 +22,7 @@ pub(crate) fn free_time(
     body: &Body,
     local: &State,
     acceleration: f64,
+    floor: f64,
 ) -> f64 {
     let surface = &*placed.surface;
     let range = glue.as_ref().map_or(0.0, |glue| glue.range());
@@ -37,17 +38,18 @@ pub(crate) fn free_time(
     let drawn = glue.map_or(f64::INFINITY, |glue| {
         glue.time_to_reach(surface, &body.shape, local, speed, acceleration)
     });
-    touch_time(contact, placed, body, local, [speed, acceleration]).min(drawn)
+    touch_time(contact, placed, body, local, [speed, acceleration], floor).min(drawn)
 }
 
 /// Time [s] in which a body, none of whose points is faster than `speed` [m/s] and which nothing
-/// accelerates by more than `acceleration` [m/s2], cannot touch a node.
+/// accelerates by more than `acceleration` [m/s2], cannot touch a node. A time up to `floor` [s] may be too long.
 fn touch_time(
     contact: &mut Contact,
     placed: &Placed<'_>,
     body: &Body,
     local: &State,
     [speed, acceleration]: [f64; 2],
+    floor: f64,
 ) -> f64 {
     let surface = &*placed.surface;
     let margin = 0.5 * surface.pitch();
@@ -55,7 +57,8 @@ fn touch_time(
         Contact::Springs(patch) => patch,
         Contact::Columns(columns) => {
             columns.cover(surface, &body.shape, local, COLUMNS_PITCH * surface.pitch());
-            return time_to_close(columns.room(surface, &body.shape, local), speed, acceleration);
+            let time = |room| time_to_close(room, speed, acceleration);
+            return time(columns.room(surface, &body.shape, local, |room| time(room) > floor));
         }
         Contact::Mutual(mutual) => {
             let Some(skin) = &placed.skin else { return 0.0 };

@@ -284,18 +284,18 @@ impl Integrator {
         if self.touching {
             return (self.contact_step(body, surfaces, loads).min(limit), false);
         }
-        let mut free = f64::INFINITY;
-        for (i, (contact, placed)) in self.contacts.iter_mut().zip(surfaces).enumerate() {
-            let local = placed.sees(&body.state);
-            let acceleration = acceleration(placed, body, loads);
-            let glue = self.glue.get_mut(i).and_then(Option::as_mut);
-            free = free.min(free_time(contact, glue, placed, body, &local, acceleration));
-        }
         let scale = FLOOR * self.yield_overlap();
         let time = |placed: &Placed<'_>| {
             time_to_close(scale, top_speed(placed, body), acceleration(placed, body, loads))
         };
         let floor = surfaces.iter().map(time).fold(limit, f64::min);
+        let mut free = f64::INFINITY;
+        for (i, (contact, placed)) in self.contacts.iter_mut().zip(surfaces).enumerate() {
+            let local = placed.sees(&body.state);
+            let acceleration = acceleration(placed, body, loads);
+            let glue = self.glue.get_mut(i).and_then(Option::as_mut);
+            free = free.min(free_time(contact, glue, placed, body, &local, acceleration, floor));
+        }
         if free > floor || free == f64::INFINITY {
             let free = free.min(self.rise_time(body, surfaces));
             (free.min(flight_limit(surfaces).max(floor)), true)

@@ -110,6 +110,12 @@ impl Leaf {
 }
 
 impl Changes {
+    /// Changes that bring nodes of a surface to these depths [m], without volumes. [`Surface::apply`] panics
+    /// where it has no such node.
+    pub fn to_depths(depths: Vec<(u32, f64)>) -> Self {
+        Self { depths, gain: Worn::default() }
+    }
+
     /// Volumes worn off by the leaf, and its largest load.
     pub fn gain(&self) -> &Worn {
         &self.gain

@@ -1,40 +1,40 @@
 //! A body between the two poses of a step, as the swept rule sees it: where a column's line
 //! crosses the body, and through which face a point entered it.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point3, UnitQuaternion, Vector3};
 
 use crate::body::State;
-use crate::planes::{self, Block, Line};
+use crate::planes::{self, Block, Blocks, Line};
 use crate::shape::{Piece, Shape};
 
 /// Displacement of a face, in displacements of the step, below which it did not move.
-const UNMOVED: f64 = 1e-9;
+pub(crate) const UNMOVED: f64 = 1e-9;
 
-/// The face planes and balls of a body at the start and the end of a step.
+/// Outward normal and offset of a plane [m].
+type Facing = (Vector3<f64>, f64);
+type Pose = (Point3<f64>, UnitQuaternion<f64>);
+
+/// The face planes and balls of a body, always the same, at the start and the end of a step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Swept {
     /// The normal of every node, where they agree: slopes against it are ready.
     level: Option<Vector3<f64>>,
-    planes: Vec<MovedPlane>,
+    /// The planes of all hulls, and where they stand.
+    starts: Vec<Facing>,
+    ends: Vec<Facing>,
+    placed: Option<Pose>,
     balls: Vec<MovedBall>,
     /// The planes at the end of the step, hull by hull in whole blocks.
     blocks: Vec<Block>,
     hulls: Vec<HullEnd>,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct MovedPlane {
-    /// Outward normal and offset [m].
-    from: (Vector3<f64>, f64),
-    to: (Vector3<f64>, f64),
-    /// Mean normal of both poses.
-    mean: Vector3<f64>,
-}
-
 /// Where the planes and the blocks of a hull end.
 #[derive(Clone, Copy, Debug)]
 struct HullEnd {
     planes: usize,
+    /// Of the blocks, those that a line may lead away from.
+    shunned: usize,
     blocks: usize,
 }
 
@@ -75,7 +75,7 @@ impl Swept {
         level: Option<Vector3<f64>>,
     ) {
         self.level = level;
-        self.planes.clear();
+        self.face(shape, from, to);
         self.blocks.clear();
         self.balls.clear();
         self.hulls.clear();
@@ -87,23 +87,29 @@ impl Swept {
                     radius: ball.radius,
                 }),
                 Piece::Hull(hull) => {
-                    let at = |state: &State, normal: &Vector3<f64>, offset: f64| {
-                        let normal = state.rotation * normal;
-                        (normal, offset + normal.dot(&state.position.coords))
-                    };
-                    self.planes.extend(hull.planes().iter().map(|p| {
-                        let from = at(from, &p.normal, p.offset);
-                        let to = at(to, &p.normal, p.offset);
-                        MovedPlane { from, to, mean: (from.0 + to.0).normalize() }
-                    }));
                     let start = self.hulls.last().map_or(0, |hull| hull.planes);
-                    let ends = self.planes[start..].iter().map(|plane| plane.to);
-                    planes::add(&mut self.blocks, ends, level);
-                    let (planes, blocks) = (self.planes.len(), self.blocks.len());
-                    self.hulls.push(HullEnd { planes, blocks });
+                    let planes = start + hull.planes().len();
+                    let ends = self.ends[start..planes].iter().copied();
+                    let shunned = planes::add(&mut self.blocks, ends, level);
+                    self.hulls.push(HullEnd { planes, shunned, blocks: self.blocks.len() });
                 }
             }
         }
+    }
+
+    /// Turns the planes of all hulls to where they are at both ends of a step.
+    fn face(&mut self, shape: &Shape, from: &State, to: &State) {
+        let pose = |state: &State| Some((state.position, state.rotation));
+        // Mostly a step begins where the last one ended.
+        match self.placed == pose(from) {
+            true => std::mem::swap(&mut self.starts, &mut self.ends),
+            false => turn(&mut self.starts, shape, from),
+        }
+        match pose(from) == pose(to) {
+            true => self.ends.clone_from(&self.starts),
+            false => turn(&mut self.ends, shape, to),
+        }
+        self.placed = pose(to);
     }
 
     /// Where the line x + z n crosses the body at the end of the step, above -`own` [m]. Pieces of
@@ -116,7 +122,7 @@ impl Swept {
     #[inline]
     fn whole_span(&self, x: &Point3<f64>, n: &Vector3<f64>) -> Option<Span> {
         match (&*self.hulls, &*self.balls) {
-            ([_], []) => return self.clip(&self.blocks, x, n),
+            ([hull], []) => return self.clip(self.lone(hull), x, n),
             ([], [ball]) => return ball.chord(x, n),
             _ => {}
         }
@@ -135,7 +141,7 @@ impl Swept {
     }
 
     #[inline]
-    fn clip(&self, blocks: &[Block], x: &Point3<f64>, n: &Vector3<f64>) -> Option<Span> {
+    fn clip(&self, blocks: Blocks<'_>, x: &Point3<f64>, n: &Vector3<f64>) -> Option<Span> {
         let line = Line::new(self.level, n);
         let ends = [f64::NEG_INFINITY, f64::INFINITY];
         let [low, high] = planes::inside(blocks, x, line, ends, 0.0)?;
@@ -143,31 +149,45 @@ impl Swept {
         Some(Span { low, high, deep_normal })
     }
 
+    /// The blocks of a hull that is alone.
+    #[inline]
+    fn lone(&self, hull: &HullEnd) -> Blocks<'_> {
+        Blocks { all: &self.blocks, shunned: hull.shunned }
+    }
+
     /// The blocks of each hull.
     #[inline]
-    fn blocks(&self) -> impl Iterator<Item = &[Block]> {
+    fn blocks(&self) -> impl Iterator<Item = Blocks<'_>> {
         let mut start = 0;
         self.hulls.iter().map(move |hull| {
-            let blocks = &self.blocks[start..hull.blocks];
+            let all = &self.blocks[start..hull.blocks];
+            let shunned = hull.shunned - start;
             start = hull.blocks;
-            blocks
+            Blocks { all, shunned }
         })
     }
 
     /// True when the line from `x` down along -n, `reach` [m] long, meets the body, grown by
     /// `margin` [m], at the end of the step.
     pub(crate) fn meets(&self, x: &Point3<f64>, n: &Vector3<f64>, margin: f64, reach: f64) -> bool {
-        let (line, ends) = (Line::new(self.level, n), [-(reach + margin), margin]);
-        self.blocks().any(|blocks| planes::inside(blocks, x, line, ends, margin).is_some())
+        let line = Line::new(self.level, n);
+        if let ([hull], []) = (&*self.hulls, &*self.balls) {
+            return planes::meet(self.lone(hull), x, line, reach, margin);
+        }
+        self.blocks().any(|blocks| planes::meet(blocks, x, line, reach, margin))
             || self.balls.iter().any(|ball| ball.meets(x, n, margin, reach))
     }
 
-    /// A distance [m] that every point of the body may move, at least, before it meets the line from `x`
-    /// down along -n; below zero where it may have met it.
-    pub(crate) fn clearance(&self, x: &Point3<f64>, n: &Vector3<f64>) -> f64 {
+    /// A distance [m] that every point of the body may move, at least, before it meets the line from `depth`
+    /// [m] below `x` down along -n; below zero where it may have met it.
+    #[inline]
+    pub(crate) fn clearance(&self, x: &Point3<f64>, n: &Vector3<f64>, depth: f64) -> f64 {
         let line = Line::new(self.level, n);
-        let hulls = self.blocks().map(|blocks| planes::clearance(blocks, x, line));
-        let balls = self.balls.iter().map(|ball| ball.clearance(x, n));
+        if let ([hull], []) = (&*self.hulls, &*self.balls) {
+            return planes::clearance(self.lone(hull), x, line, depth);
+        }
+        let hulls = self.blocks().map(|blocks| planes::clearance(blocks, x, line, depth));
+        let balls = self.balls.iter().map(|ball| ball.clearance(&(x - n * depth), n));
         hulls.chain(balls).fold(f64::INFINITY, f64::min)
     }
 
@@ -184,7 +204,8 @@ impl Swept {
         };
         let mut start = 0;
         for hull in &self.hulls {
-            add(hull_entry(&self.planes[start..hull.planes], p, step));
+            let planes = start..hull.planes;
+            add(hull_entry(&self.starts[planes.clone()], &self.ends[planes], p, step));
             start = hull.planes;
         }
         self.balls.iter().for_each(|ball| add(ball.entry(p, step)));
@@ -192,13 +213,30 @@ impl Swept {
     }
 }
 
+/// The planes of all hulls of `shape` at `state`.
+fn turn(planes: &mut Vec<Facing>, shape: &Shape, state: &State) {
+    planes.clear();
+    for piece in shape.pieces() {
+        let Piece::Hull(hull) = piece else { continue };
+        planes.extend(hull.planes().iter().map(|plane| {
+            let normal = state.rotation * plane.normal;
+            (normal, plane.offset + normal.dot(&state.position.coords))
+        }));
+    }
+}
+
 /// The plane that was crossed last on the way in, and when, as a share of the step.
 #[inline]
-fn hull_entry(planes: &[MovedPlane], p: &Point3<f64>, step: f64) -> Option<(f64, Entry)> {
-    let mut last: Option<(f64, &MovedPlane, f64)> = None;
-    for plane in planes {
-        let after = plane.to.0.dot(&p.coords) - plane.to.1;
-        let before = plane.from.0.dot(&p.coords) - plane.from.1;
+fn hull_entry(
+    starts: &[Facing],
+    ends: &[Facing],
+    p: &Point3<f64>,
+    step: f64,
+) -> Option<(f64, Entry)> {
+    let mut last: Option<(f64, Vector3<f64>, f64)> = None;
+    for (from, to) in starts.iter().zip(ends) {
+        let after = to.0.dot(&p.coords) - to.1;
+        let before = from.0.dot(&p.coords) - from.1;
         if after > UNMOVED * step {
             // Another piece of the clump took the point.
             return None;
@@ -207,11 +245,13 @@ fn hull_entry(planes: &[MovedPlane], p: &Point3<f64>, step: f64) -> Option<(f64,
         if before > 0.0 && displacement > UNMOVED * step {
             let time = before / displacement;
             if last.is_none_or(|(latest, ..)| time > latest) {
-                last = Some((time, plane, displacement));
+                last = Some((time, from.0 + to.0, displacement));
             }
         }
     }
-    last.map(|(time, plane, displacement)| (time, Entry { normal: plane.mean, displacement }))
+    last.map(|(time, twice, displacement)| {
+        (time, Entry { normal: twice.normalize(), displacement })
+    })
 }
 
 impl MovedBall {
@@ -256,8 +296,6 @@ impl MovedBall {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::UnitQuaternion;
-
     use super::*;
     use crate::candidates::travel;
     use crate::hull::{Hull, Polyhedron};
@@ -295,7 +333,7 @@ mod tests {
                 at.rotation = UnitQuaternion::from_scaled_axis(numbers.vector() * 3.0);
                 let x = Point3::from(numbers.vector());
                 swept.place(&shape, &at, &at, None);
-                let way = swept.clearance(&x, &n);
+                let way = swept.clearance(&x, &n, 0.0);
                 free += usize::from(!swept.meets(&x, &n, 0.0, f64::INFINITY));
                 clear += usize::from(way > 0.0);
                 for _ in 0..if way > 0.0 { 20 } else { 0 } {

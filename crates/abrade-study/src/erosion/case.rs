@@ -7,10 +7,11 @@ use std::sync::Arc;
 use abrade::{Changes, HexStrip, Surface, SurfaceError};
 use abrade_report::quantity_text::digits;
 use abrade_scene::scene::Form;
-use abrade_scene::{GrainError, GrainSize, MadeGrain, Progress};
+use abrade_scene::{GrainError, GrainSize, MadeGrain};
 use nalgebra::Point3;
 use rayon::prelude::*;
 
+use super::begun::{Begun, Watch};
 use super::file::{Plate, Size, StudyFile};
 use super::impact::{Impact, Landed, Miss, Shot};
 use super::sample::{CUT, Sample};
@@ -128,20 +129,25 @@ pub(crate) struct Range<'a> {
 }
 
 impl Case {
-    /// Makes the impacts of the case; None where the user broke it off.
+    /// Makes the impacts of the case, or those that are missing from what has `begun`; None where it was
+    /// broken off.
     ///
     /// # Errors
     /// The grain or the plate cannot be made.
-    pub fn make(
+    pub(crate) fn make(
         &self,
         file: &StudyFile,
         folder: &Path,
-        progress: &mut dyn Progress,
+        begun: Option<Begun>,
+        watch: &mut Watch<'_>,
     ) -> Result<Option<Made>, CaseError> {
         let range = Range::new(file, folder, self)?;
+        let begun = begun.and_then(|begun| Some((begun.plate(&range.plate)?, begun.impacts)));
+        let (plate, impacts) =
+            begun.unwrap_or_else(|| (Surface::clone(&range.plate), Impacts::new()));
         let impacts = match file.plate {
-            Plate::Fresh => range.fresh(progress)?,
-            Plate::Worn { .. } => range.worn(progress)?,
+            Plate::Fresh => range.fresh(impacts, watch)?,
+            Plate::Worn { .. } => range.worn(plate, impacts, watch)?,
         };
         Ok(impacts.map(|impacts| Made { pitch: range.plate.pitch(), impacts }))
     }
@@ -164,36 +170,48 @@ impl<'a> Range<'a> {
 
 impl Range<'_> {
     /// Impacts on fresh plates, some at a time, until the interval is narrow enough.
-    fn fresh(&self, progress: &mut dyn Progress) -> Result<Option<Impacts>, CaseError> {
+    fn fresh(
+        &self,
+        mut impacts: Impacts,
+        watch: &mut Watch<'_>,
+    ) -> Result<Option<Impacts>, CaseError> {
         let samples = &self.file.samples;
-        let mut impacts = Impacts::new();
-        while wants_more(self.file, &impacts) {
-            let end = (impacts.len() as u32 + samples.least).min(samples.most);
-            while (impacts.len() as u32) < end {
-                let from = impacts.len() as u32;
-                let landed = self.land_some(from..(from + STRETCH).min(end), &self.plate)?;
-                impacts.extend(landed.into_iter().map(|landed| told(landed.outcome).0));
-                if !progress.advance(contact_time(&impacts), Some(share(self.file, &impacts))) {
-                    return Ok(None);
-                }
+        // Those that are there may end between two looks at the interval.
+        while self.is_between(&impacts) || wants_more(self.file, &impacts) {
+            let from = impacts.len() as u32;
+            let end = ((from / samples.least + 1) * samples.least).min(samples.most);
+            let landed = self.land_some(from..(from + STRETCH).min(end), &self.plate)?;
+            impacts.extend(landed.into_iter().map(|landed| told(landed.outcome).0));
+            if !watch.goes_on(self.file, &impacts, &self.plate) {
+                return Ok(None);
             }
         }
         Ok(Some(impacts))
     }
 
+    /// True while no one asks how wide the interval is.
+    fn is_between(&self, impacts: &Impacts) -> bool {
+        let (samples, count) = (&self.file.samples, impacts.len() as u32);
+        !count.is_multiple_of(samples.least) && count < samples.most
+    }
+
     /// Impacts one after the other on one plate: some at a time, each as if those beside it had not been.
     /// Those that may have looked at what one before them has changed are made again, so that the result is
     /// that of one after the other.
-    fn worn(&self, progress: &mut dyn Progress) -> Result<Option<Impacts>, CaseError> {
+    fn worn(
+        &self,
+        plate: Surface,
+        mut impacts: Impacts,
+        watch: &mut Watch<'_>,
+    ) -> Result<Option<Impacts>, CaseError> {
         let samples = &self.file.samples;
-        let mut plate = Arc::new(Surface::clone(&self.plate));
-        let mut impacts = Impacts::new();
+        let mut plate = Arc::new(plate);
         while wants_more(self.file, &impacts) {
             let end = (impacts.len() as u32 + STRETCH).min(samples.most);
             while (impacts.len() as u32) < end {
                 self.some_more(end, &mut plate, &mut impacts)?;
             }
-            if !progress.advance(contact_time(&impacts), Some(share(self.file, &impacts))) {
+            if !watch.goes_on(self.file, &impacts, &plate) {
                 return Ok(None);
             }
         }
@@ -303,7 +321,7 @@ fn wants_more(file: &StudyFile, impacts: &Impacts) -> bool {
 }
 
 /// How much of a case is done, as far as one can tell from how its interval narrows.
-fn share(file: &StudyFile, impacts: &Impacts) -> f64 {
+pub(crate) fn share(file: &StudyFile, impacts: &Impacts) -> f64 {
     let samples = &file.samples;
     let wide = wear_per_mass(impacts.iter().flatten()).relative() / samples.interval;
     let count = impacts.len() as f64;
@@ -311,7 +329,7 @@ fn share(file: &StudyFile, impacts: &Impacts) -> f64 {
     (count / needed).min(1.0)
 }
 
-fn contact_time(impacts: &Impacts) -> f64 {
+pub(crate) fn contact_time(impacts: &Impacts) -> f64 {
     impacts.iter().flatten().map(|impact| impact.contact_s).sum()
 }
 
@@ -336,7 +354,10 @@ impl StudyFile {
 
 #[cfg(test)]
 mod tests {
+    use abrade_scene::Progress;
+
     use super::*;
+    use crate::erosion::store::Store;
 
     struct Quiet;
 
@@ -359,7 +380,12 @@ mod tests {
         let file = file.and_then(abrade_scene::Document::finish).expect("a study");
         let case = &file.cases()[0];
         let range = Range::new(&file, Path::new(""), case).expect("a plate");
-        let beside = range.worn(&mut Quiet).expect("impacts").expect("all of them");
+        let folder = tempfile::tempdir().expect("a folder");
+        let store = Store::new(&file, Path::new(""), folder.path());
+        let (mut quiet, unworn) = (Quiet, Surface::clone(&range.plate));
+        let mut watch = Watch::new(&mut quiet, &store, case);
+        let beside = range.worn(unworn, Impacts::new(), &mut watch);
+        let beside = beside.expect("impacts").expect("all of them");
         let mut plate = Surface::clone(&range.plate);
         let mut changed = 0;
         for (k, impact) in (0..).zip(&beside) {

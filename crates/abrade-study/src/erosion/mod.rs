@@ -4,6 +4,7 @@
 //! in a file of its own when it is made; [`make`] makes those that are not there yet, all of them or
 //! some, and [`result`] tells what those that are there come to.
 
+mod begun;
 mod case;
 mod charts;
 mod check;
@@ -38,6 +39,7 @@ pub use statistics::Estimate;
 pub use summary::{CaseResult, Erosion, Exponent};
 
 use crate::error::StudyError;
+use begun::Watch;
 use store::Store;
 
 /// Makes those of `cases` that are not in the results folder `out` yet; files that the study names lie
@@ -59,9 +61,12 @@ pub fn make(
             continue;
         }
         let mut part = Part { whole: progress, at, of: cases.len() };
-        match case.make(file, beside, &mut part) {
+        let mut watch = Watch::new(&mut part, &store, case);
+        match case.make(file, beside, store.begun(case), &mut watch) {
             Ok(Some(made)) => store.write(case, &made)?,
-            Ok(None) => return Err(StudyError::Interrupted),
+            Ok(None) => {
+                return Err(watch.error.map_or(StudyError::Interrupted, StudyError::Report));
+            }
             Err(error) => unmade.push(Unmade { case: case.clone(), error }),
         }
     }

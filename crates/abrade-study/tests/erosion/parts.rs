@@ -98,6 +98,39 @@ fn a_study_goes_on_where_it_was_broken_off() {
     assert!(!erosion::is_made(&other, Path::new(""), &cases[1], out));
 }
 
+/// Fails for a case that begins anew, that goes on over a plate that is not the one it has worn, or that looks
+/// at its interval elsewhere when it goes on; and for one that trusts half a file.
+#[test]
+fn a_case_goes_on_within_itself_with_the_same_bits() {
+    let text = text("\"grit\": (form: Grit(points: 8))", "\"40 deg\"", 70);
+    let text = text.replace("most: 70)", "most: 400, interval: 0.06), resolution: 3.0");
+    for plate in ["Fresh", "Worn(width: \"0.3 mm\")"] {
+        let file = study(&text.replace("speeds:", &format!("plate: {plate}, speeds:")));
+        let (cases, folder) = (file.cases(), tempfile::tempdir().expect("a folder"));
+        let [whole, parts] = ["whole", "parts"].map(|name| folder.path().join(name));
+        make(&file, &cases, &whole);
+        let bytes = |out: &Path| std::fs::read(out.join("cases/0000.jsonl")).expect("a case");
+        let begun = parts.join("cases/0000.begun.jsonl");
+        let lines = |text: &str| text.lines().count();
+        let mut count = 0;
+        // A share of the case each time; the second finds half a file.
+        for round in 0..3 {
+            let stopped = erosion::make(&file, Path::new(""), &cases, &parts, &mut Stop);
+            assert!(matches!(stopped, Err(StudyError::Interrupted)), "{plate} {stopped:?}");
+            let text = std::fs::read_to_string(&begun).expect("what has begun");
+            assert!(lines(&text) > count, "{plate}");
+            count = if round == 0 { 0 } else { lines(&text) };
+            if round == 0 {
+                std::fs::write(&begun, &text[..text.len() / 2]).expect("a file");
+            }
+        }
+        make(&file, &cases, &parts);
+        assert!(bytes(&whole) == bytes(&parts), "{plate}");
+        assert!(!begun.exists(), "{plate}");
+        assert!(bytes(&whole).split(|byte| *byte == b'\n').count() > count, "{plate}");
+    }
+}
+
 /// Fails for impacts that each find a fresh plate, or for a plate whose craters are not those that the
 /// impacts tell of: the second of two grains on one spot finds room that the first one made.
 #[test]
