@@ -20,6 +20,7 @@ mod progress;
 mod render;
 mod run;
 mod say;
+mod scene_text;
 mod schema;
 mod study;
 mod sweep;

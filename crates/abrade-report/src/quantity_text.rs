@@ -67,6 +67,11 @@ fn fitting<const N: usize>(value: f64, units: &[(f64, &'static str); N]) -> (f64
     *fits.unwrap_or(&units[N - 1])
 }
 
+/// How many there are, of `one` or of `more`.
+pub fn count(count: usize, one: &str, more: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { more })
+}
+
 /// Three significant digits, without trailing zeros.
 pub fn digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);

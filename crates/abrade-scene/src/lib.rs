@@ -48,4 +48,4 @@ pub use run::{Outcome, Precision, Progress, RunError, RunOptions, run};
 pub use scene::Scene;
 pub use size::{Size, SurfaceSize};
 pub use solid::Solid;
-pub use spans::path;
+pub use spans::{field_names, path};

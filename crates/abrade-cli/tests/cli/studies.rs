@@ -39,7 +39,7 @@ fn bad_input_is_said_before_anything_runs() {
 }
 
 /// A study of two cases with a few impacts each.
-const EROSION: &str = r#"(version: 1, name: "two grains",
+pub(crate) const EROSION: &str = r#"(version: 1, name: "two grains",
   target: (material: (hardness: "1.7 GPa"), density: 7850.0, removal: AttackAngle(critical: "35 deg")),
   grains: { "ball": (form: Sphere), "cube": (form: Polyhedron(kind: Cube)) },
   density: 2650.0, size: Volume(diameter: "200 um"), speeds: ["98 m/s"], angles: ["30 deg"],
