@@ -69,7 +69,7 @@ pub(crate) struct CheckArguments {
 pub(crate) struct RunArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// Folder for the results [default: runs/<scene name>].
+    /// Folder for the results; a run that is there is replaced [default: runs/<scene name>].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Floating-point numbers of the engine.
@@ -202,7 +202,7 @@ pub(crate) enum AdhesiveCommand {
 pub(crate) struct AdhesiveRunArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// Folder for the results [default: runs/<scene name>].
+    /// Folder for the results; a run that is there is replaced [default: runs/<scene name>].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Print the summary file's content, and nothing else.

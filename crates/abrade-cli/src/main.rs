@@ -10,6 +10,7 @@ mod arguments;
 mod check;
 mod clump;
 mod digest;
+mod earlier;
 mod erosion;
 mod failure;
 mod interrupt;

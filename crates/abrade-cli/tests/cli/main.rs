@@ -11,6 +11,7 @@ mod bad_streams;
 mod bad_values;
 mod bad_words;
 mod commands;
+mod earlier;
 mod laws;
 mod laws_beside;
 mod notes;
