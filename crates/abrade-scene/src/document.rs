@@ -12,6 +12,7 @@ use crate::problem::{Mark, Problem, SceneError};
 use crate::refusal;
 use crate::set;
 use crate::spans::{self, Kind, Node, ScenePath};
+use crate::unread::unread;
 
 /// A kind of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +40,7 @@ impl<T: DeserializeOwned> Document<T> {
     /// It cannot be read, is not RON, or a word or value does not fit its place.
     pub fn load(path: &Path, sets: &[String], kind: FileKind) -> Result<Self, SceneError> {
         let name = path.display().to_string();
-        let read = std::fs::read(path).map_err(|error| error.kind().to_string());
+        let read = std::fs::read(path).map_err(|error| unread(path, &error));
         let text = read.and_then(|bytes| {
             String::from_utf8(bytes).map_err(|_| "it is not a text in UTF-8".to_owned())
         });

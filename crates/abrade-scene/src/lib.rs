@@ -33,6 +33,7 @@ mod size;
 mod solid;
 mod spans;
 mod stream;
+mod unread;
 
 pub use build::{BuildError, Built, BuiltSurface, StandIn};
 pub use carrier::BuiltCarrier;
@@ -49,3 +50,4 @@ pub use scene::Scene;
 pub use size::{Size, SurfaceSize};
 pub use solid::Solid;
 pub use spans::{field_names, path};
+pub use unread::unread;

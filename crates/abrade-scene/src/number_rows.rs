@@ -5,6 +5,8 @@ use std::path::Path;
 
 use thiserror::Error;
 
+use crate::unread::unread;
+
 /// A file of rows that cannot be used.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub(crate) enum RowsTrouble {
@@ -35,12 +37,12 @@ pub(crate) struct Rows {
 
 /// Reads `file`, which holds `what` and lies in `folder`.
 pub(crate) fn read(folder: &Path, what: &'static str, file: &str) -> Result<Rows, RowsTrouble> {
-    let bytes = std::fs::read(folder.join(file)).map_err(|error| {
-        let reason = error.kind().to_string();
+    let path = folder.join(file);
+    let bytes = std::fs::read(&path).map_err(|error| {
+        let reason = unread(&path, &error);
         RowsTrouble::Unreadable { what, file: file.to_owned(), reason }
     })?;
-    let path = folder.join(file).display().to_string();
-    parse(&path, &String::from_utf8_lossy(&bytes))
+    parse(&path.display().to_string(), &String::from_utf8_lossy(&bytes))
 }
 
 /// Pairs of numbers from `file`, which holds `what` and lies in `folder`: for files of other rooms.

@@ -1,6 +1,5 @@
 //! What can be wrong with a clump file.
 
-use std::io::ErrorKind;
 use std::path::PathBuf;
 
 use thiserror::Error;
@@ -14,7 +13,7 @@ pub enum ClumpError {
         /// The file.
         path: PathBuf,
         /// Why not.
-        reason: ErrorKind,
+        reason: String,
     },
     /// A line is not what its place demands.
     #[error("{}:{line}: {trouble}; the line is `{text}`", path.display())]
