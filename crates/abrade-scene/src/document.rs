@@ -4,9 +4,9 @@
 use std::path::Path;
 
 use abrade::ParameterError;
-use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
 
+use crate::deserialise::{deserialise, options};
 use crate::patched::Patched;
 use crate::problem::{Mark, Problem, SceneError};
 use crate::refusal;
@@ -157,7 +157,7 @@ fn value_and_tree<T: DeserializeOwned>(
         return Err(problems);
     }
     check_version(patched, &tree, kind).map_err(|problem| vec![problem])?;
-    let value = deserialise(patched, &tree).map_err(|problem| vec![problem])?;
+    let value = deserialise(patched, &tree)?;
     Ok((value, tree))
 }
 
@@ -196,28 +196,6 @@ fn check_version(patched: &Patched, tree: &Node, kind: FileKind) -> Result<(), P
     let label = format!("this program reads version {known}");
     let mark = patched.mark(found.node.span.clone(), label);
     Err(Problem { message, marks: vec![mark], help: None })
-}
-
-fn deserialise<T: DeserializeOwned>(patched: &Patched, tree: &Node) -> Result<T, Problem> {
-    let text = &patched.text;
-    let mut deserializer = ron::Deserializer::from_str_with_options(text, &options())
-        .map_err(|error| refusal::syntax(patched, &error))?;
-    let value = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
-        let path = refusal::scene_path(error.path());
-        let error = deserializer.span_error(error.into_inner());
-        match path {
-            Some(path) => refusal::refusal(patched, tree, &path, &error),
-            None => refusal::syntax(patched, &error),
-        }
-    })?;
-    deserializer
-        .end()
-        .map_err(|error| refusal::syntax(patched, &deserializer.span_error(error)))?;
-    Ok(value)
-}
-
-fn options() -> ron::Options {
-    ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME)
 }
 
 /// Names that a map gives twice: RON would keep the last one in silence.

@@ -12,6 +12,7 @@ mod check;
 mod closed;
 pub mod clump;
 mod copies;
+mod deserialise;
 mod document;
 mod grain;
 mod hardness;
