@@ -16,6 +16,7 @@ mod plan;
 mod raster;
 pub(crate) mod regimes;
 pub(crate) mod rounds;
+mod scale_bar;
 mod section;
 mod shading;
 mod slope;
