@@ -52,7 +52,7 @@ fn write_digest(
             write!(parts, ", chips {}", volume(surface.chip_volume))?;
         }
         if let Some(rate) = surface.wear_rate {
-            write!(parts, ", at the end {} mm3 per mm", digits(rate * 1e6))?;
+            write!(parts, ", wear rate at the end {} mm3/mm", digits(rate * 1e6))?;
         }
         writeln!(out, "  surface {name:12} {parts}")?;
     }
