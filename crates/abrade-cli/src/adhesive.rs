@@ -107,7 +107,7 @@ impl Opened {
         let is_there = |case: &&adhesive::Case| adhesive::is_made(&self.file, case, &self.out);
         let there = cases.iter().filter(is_there).count();
         let (all, place) = (cases.len(), self.out.display());
-        say::say(&format!("{there} of {all} cases are in {place}\n"))
+        say::say(&format!("{} in {place}\n", say::of_cases(there, all)))
     }
 
     /// Writes the files of the cases that are there, and shows them.
@@ -123,8 +123,8 @@ impl Opened {
         match map.missing() {
             0 => Ok(()),
             missing => Err(Failure::Run(anyhow::anyhow!(
-                "{missing} of {} cases are missing",
-                self.file.cases().len()
+                "{} missing",
+                say::of_cases(missing, self.file.cases().len())
             ))),
         }
     }

@@ -69,6 +69,6 @@ impl Opened {
     pub(crate) fn lacks(&self, missing: usize, unmade: &[Unmade]) -> Failure {
         let why: String = unmade.iter().map(|unmade| format!("\n  {unmade}")).collect();
         let all = self.file.cases().len();
-        Failure::Run(anyhow::anyhow!("{missing} of {all} cases are missing{why}"))
+        Failure::Run(anyhow::anyhow!("{} missing{why}", say::of_cases(missing, all)))
     }
 }

@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use abrade_report::quantity_text::time;
+use abrade_report::quantity_text::{count, time};
 use abrade_scene::Progress;
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -59,7 +59,7 @@ impl Progress for Bar<'_> {
     fn advance(&mut self, simulated: f64, share: Option<f64>) -> bool {
         let share = share.map(|share| share.clamp(0.0, 1.0));
         let doing = match self.cases {
-            Some([over, all]) => format!("{over} of {all} cases"),
+            Some([over, all]) => format!("{over} of {}", count(all, "case", "cases")),
             None if self.shows_time => format!("{simulated:.3e} s simulated"),
             None => String::new(),
         };

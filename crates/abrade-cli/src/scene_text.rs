@@ -22,7 +22,10 @@ pub(crate) fn rows(checked: &Checked) -> String {
         let first = first.and_then(|first| scene.surfaces.get(first).zip(size.surfaces.get(first)));
         if let Some((surface, size)) = first {
             let each = surface_text(surface, size);
-            rows.push(row("surface", format!("{name}: {} copies, each {each}", names.len())));
+            rows.push(row(
+                "surface",
+                format!("{name}: {}, each {each}", count(names.len(), "copy", "copies")),
+            ));
         }
     }
     let of_stream = |name: &String| checked.is_streamed(name);
@@ -61,7 +64,7 @@ pub(crate) fn line(checked: &Checked) -> String {
     let nodes: f64 = size.surfaces.values().map(|surface| surface.nodes).sum();
     let mut parts = vec![
         count(scene.surfaces.len(), "surface", "surfaces"),
-        count(nodes as usize, "node", "nodes"),
+        count(nodes, "node", "nodes"),
         count(scene.bodies.len(), "body", "bodies"),
         format!("roughly {}", time(size.seconds)),
     ];
@@ -113,7 +116,7 @@ fn surface_text(surface: &SceneSurface, size: &SurfaceSize) -> String {
             let again = if *repeat { ", again and again" } else { "" };
             let through = match file {
                 Some(file) => format!("the points of `{file}`"),
-                None => format!("{} points", points.len()),
+                None => count(points.len(), "point", "points"),
             };
             format!("; led through {through}{again}")
         }
@@ -122,7 +125,7 @@ fn surface_text(surface: &SceneSurface, size: &SurfaceSize) -> String {
         }
     };
     let (nodes, material) = (size.nodes, &surface.material);
-    let nodes = count(nodes as usize, "node", "nodes");
+    let nodes = count(nodes, "node", "nodes");
     format!("{nodes} ({layout}); {flow}, {elastic}, {removal}; {material}{motion}")
 }
 
@@ -137,8 +140,8 @@ fn body_text(body: &SceneBody, solid: &Solid) -> String {
         SceneShape::Polyhedron { kind, .. } => format!("{kind:?}").to_lowercase(),
         SceneShape::ConvexHull { .. } => "convex hull".to_owned(),
         SceneShape::Grain { spheres: None, .. } => "grain".to_owned(),
-        SceneShape::Grain { .. } => format!("grain of {} spheres", solid.shape.pieces().len()),
-        SceneShape::Clump { .. } => format!("clump of {} spheres", solid.shape.pieces().len()),
+        SceneShape::Grain { .. } => format!("grain of {}", spheres(solid)),
+        SceneShape::Clump { .. } => format!("clump of {}", spheres(solid)),
     };
     let reach = length(solid.shape.bounding_radius());
     let turned = match body.rotation {
@@ -159,12 +162,16 @@ fn body_text(body: &SceneBody, solid: &Solid) -> String {
     format!("{shape}, {mass} kg, reach {reach}{turned}; {motion}")
 }
 
+fn spheres(solid: &Solid) -> String {
+    count(solid.shape.pieces().len(), "sphere", "spheres")
+}
+
 fn stop_text(stop: &Stop) -> String {
     match stop {
         Stop::AllRebounded => "every body has left or rests, or has slid its distance".into(),
         Stop::FirstExit => "the first exit".into(),
         Stop::Time { limit } => time(*limit),
         Stop::Distance => "the distance is slid".into(),
-        Stop::Impacts { count } => format!("{count} impacts"),
+        Stop::Impacts { count: impacts } => count(*impacts, "impact", "impacts"),
     }
 }

@@ -30,7 +30,7 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let unmade = opened.make(&cases)?;
     let there = opened.file.cases().iter().filter(|case| opened.has(case)).count();
     let place = opened.out.display();
-    say::say(&format!("{there} of {all} cases are in {place}\n"))?;
+    say::say(&format!("{} in {place}\n", say::of_cases(there, all)))?;
     match unmade.is_empty() {
         true => Ok(()),
         false => Err(opened.lacks(all - there, &unmade)),

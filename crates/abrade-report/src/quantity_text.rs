@@ -1,5 +1,7 @@
 //! Numbers with units, for the lines of a terminal.
 
+use std::fmt::Display;
+
 /// A volume [m3] in the unit that suits it.
 pub fn volume(value: f64) -> String {
     let (factor, unit) = match value.abs() {
@@ -67,9 +69,10 @@ fn fitting<const N: usize>(value: f64, units: &[(f64, &'static str); N]) -> (f64
     *fits.unwrap_or(&units[N - 1])
 }
 
-/// How many there are, of `one` or of `more`.
-pub fn count(count: usize, one: &str, more: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { more })
+/// How many there are, with the word for `one` of them or for `more`.
+pub fn count<N: Display + PartialEq + From<u8>>(number: N, one: &str, more: &str) -> String {
+    let word = if number == N::from(1) { one } else { more };
+    format!("{number} {word}")
 }
 
 /// Three significant digits, without trailing zeros.
@@ -97,5 +100,7 @@ mod tests {
         assert_eq!(energy(2.5195e-11), "25.2 pJ");
         assert_eq!(pressure(1e9), "1 GPa");
         assert_eq!(length_unit(4.2e-8), (1e-9, "nm"));
+        assert_eq!(count(1_u64, "node", "nodes"), "1 node");
+        assert_eq!(count(0.0, "node", "nodes"), "0 nodes");
     }
 }

@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use abrade_report::quantity_text::count;
 use thiserror::Error;
 
 use crate::unread::unread;
@@ -61,7 +62,8 @@ fn pairs(found: &Rows) -> Result<Vec<[f64; 2]>, String> {
     let pair = |(row, line): (&Vec<f64>, &Line)| match row[..] {
         [x, y] => Ok([x, y]),
         _ => {
-            Err(format!("line {} of `{}` has {} numbers, not 2", line.number, line.file, row.len()))
+            let numbers = count(row.len(), "number", "numbers");
+            Err(format!("line {} of `{}` has {numbers}, not 2", line.number, line.file))
         }
     };
     found.rows.iter().zip(&found.lines).map(pair).collect()
@@ -100,7 +102,7 @@ mod tests {
     fn pairs_are_two_numbers_a_line() {
         let of = |text: &str| pairs(&parse("line.csv", text).expect("rows"));
         assert_eq!(of("0, 1\n2 3"), Ok(vec![[0.0, 1.0], [2.0, 3.0]]));
-        assert_eq!(of("0 1\n2"), Err("line 2 of `line.csv` has 1 numbers, not 2".into()));
+        assert_eq!(of("0 1\n2"), Err("line 2 of `line.csv` has 1 number, not 2".into()));
     }
 
     /// Fails for a reader that counts rows instead of lines, or reads a comment.

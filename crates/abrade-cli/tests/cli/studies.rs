@@ -74,6 +74,8 @@ fn an_erosion_study_is_made_whole_or_in_parts() {
     let list = sweep(&["--out", "b", "--list"]).out;
     assert!(list.contains("0  there") && list.contains("1  -"), "{list}");
     assert_eq!(sweep(&["--out", "c", "--merge", "a", "b"]).code, Some(0));
+    let one = sweep(&["--out", "d", "--case", "0", "--set", "grains={\"ball\": (form: Sphere)}"]);
+    assert_eq!(one.out, "1 of 1 case is in d\n", "{}", one.err);
     assert_eq!(table("c"), whole);
 }
 

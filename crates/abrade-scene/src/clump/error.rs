@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use abrade_report::quantity_text::count;
 use thiserror::Error;
 
 /// A clump file that cannot be used.
@@ -53,7 +54,7 @@ pub enum LineTrouble {
         word: String,
     },
     /// The wrong number of columns.
-    #[error("it has {found} columns, {expected} are expected")]
+    #[error("it has {}, {expected} are expected", count(*found, "column", "columns"))]
     Columns {
         /// Columns of the line.
         found: usize,
