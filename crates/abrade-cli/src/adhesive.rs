@@ -9,12 +9,13 @@ use crate::arguments::{AdhesiveRunArguments, PartArguments, SweepArguments};
 use crate::failure::Failure;
 use crate::progress::Bar;
 use crate::study::failure;
-use crate::{interrupt, kind, output_folder, say};
+use crate::{earlier, interrupt, kind, output_folder, say};
 
 /// Runs a scene of two asperities and says what became of them.
 pub(crate) fn run(arguments: &AdhesiveRunArguments) -> Result<(), Failure> {
     let file = kind::asperities(&arguments.scene.scene, &arguments.scene.sets)?;
     let folder = output_folder::chosen(arguments.out.as_deref(), &file.name);
+    earlier::make_way_for_run(&folder)?;
     output_folder::make(&folder)?;
     let stop = interrupt::flag();
     let mut bar = Bar::new(&stop);
@@ -38,6 +39,9 @@ pub(crate) fn run(arguments: &AdhesiveRunArguments) -> Result<(), Failure> {
     }
 }
 
+/// Files of a map beside those of its cases.
+const TABLES: [&str; 4] = ["cases.csv", "points.csv", "boundary.csv", "map.png"];
+
 /// A map, and where its results lie.
 struct Opened {
     file: MapFile,
@@ -55,6 +59,7 @@ pub(crate) fn map(
         return opened.list();
     }
     if let Some(folders) = &part.merge {
+        earlier::make_way_for_cases(&opened.out, &TABLES)?;
         for folder in folders {
             adhesive::gather(&opened.file, folder, &opened.out).map_err(failure)?;
         }
@@ -70,6 +75,7 @@ pub(crate) fn map(
 impl Opened {
     fn make(&self, part: &PartArguments) -> Result<(), Failure> {
         let cases = part.choose(self.file.cases(), |case| case.number)?;
+        earlier::make_way_for_cases(&self.out, &TABLES)?;
         output_folder::make(&self.out)?;
         let stop = interrupt::flag();
         let mut bar = Bar::of_cases(&stop);
@@ -101,7 +107,7 @@ impl Opened {
         let is_there = |case: &&adhesive::Case| adhesive::is_made(&self.file, case, &self.out);
         let there = cases.iter().filter(is_there).count();
         let (all, place) = (cases.len(), self.out.display());
-        say::say(&format!("{there} of {all} cases are in {place}\n"))
+        say::say(&format!("{} in {place}\n", say::of_cases(there, all)))
     }
 
     /// Writes the files of the cases that are there, and shows them.
@@ -117,8 +123,8 @@ impl Opened {
         match map.missing() {
             0 => Ok(()),
             missing => Err(Failure::Run(anyhow::anyhow!(
-                "{missing} of {} cases are missing",
-                self.file.cases().len()
+                "{} missing",
+                say::of_cases(missing, self.file.cases().len())
             ))),
         }
     }

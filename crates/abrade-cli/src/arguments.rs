@@ -22,8 +22,8 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Run a scene.
     Run(RunArguments),
-    /// Check a scene and say how large it is; nothing is run, nothing is written.
-    Check(SceneArguments),
+    /// Check scenes, studies and maps and say how large they are; nothing is run, nothing is written.
+    Check(CheckArguments),
     /// Make a study: many runs, compared.
     #[command(subcommand)]
     Study(StudyCommand),
@@ -52,12 +52,24 @@ pub(crate) struct SceneArguments {
     pub(crate) sets: Vec<String>,
 }
 
+/// Arguments of `check`.
+#[derive(Args)]
+pub(crate) struct CheckArguments {
+    /// Files of `run`, `study erosion`, `adhesive run` and `adhesive map` (RON). A scene alone is told in
+    /// rows, each of several files in a line.
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+    /// Change a value of every file, as in bodies.ball.motion.speed="30 m/s"; may be repeated.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub(crate) sets: Vec<String>,
+}
+
 /// Arguments of `run`.
 #[derive(Args)]
 pub(crate) struct RunArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// Folder for the results [default: runs/<scene name>].
+    /// Folder for the results; a run that is there is replaced [default: runs/<scene name>].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Floating-point numbers of the engine.
@@ -190,7 +202,7 @@ pub(crate) enum AdhesiveCommand {
 pub(crate) struct AdhesiveRunArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// Folder for the results [default: runs/<scene name>].
+    /// Folder for the results; a run that is there is replaced [default: runs/<scene name>].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Print the summary file's content, and nothing else.

@@ -1,163 +1,59 @@
-//! `abrade check`: what a scene holds and how large it is.
+//! `abrade check`: whether files are as the commands that read them want them, and how large they are.
 
-use abrade::{ElasticLaw, FlowLaw, Lateral, Removal};
-use abrade_report::quantity_text::{digits, length, memory, time};
-use abrade_scene::scene::{
-    Motion, Rotation, SceneBody, SceneShape, SceneSurface, Stop, SurfaceMotion,
-};
-use abrade_scene::{Checked, Solid, SurfaceSize};
+use std::path::Path;
 
-use crate::arguments::SceneArguments;
+use abrade_report::quantity_text::count;
+use abrade_study::adhesive;
+use anyhow::anyhow;
+
+use crate::arguments::CheckArguments;
 use crate::failure::Failure;
-use crate::kind;
+use crate::kind::{self, Read};
 use crate::say::say;
+use crate::scene_text;
+use crate::study::failure;
 
-/// Checks the scene and prints its size.
-pub(crate) fn check(arguments: &SceneArguments) -> Result<(), Failure> {
-    let checked = kind::scene(&arguments.scene, &arguments.sets)?;
-    say(&text(&checked))
-}
-
-fn text(checked: &Checked) -> String {
-    let (scene, size) = (&checked.scene, checked.size());
-    let mut rows = vec![row("scene", scene.name.clone())];
-    let is_copy = |name: &String| checked.copied.values().any(|names| names.contains(name));
-    for (name, surface) in scene.surfaces.iter().filter(|(name, _)| !is_copy(name)) {
-        if let Some(size) = size.surfaces.get(name) {
-            rows.push(row("surface", format!("{name}: {}", surface_text(surface, size))));
+/// Checks every file; tells the sound ones on the output and the others where errors go.
+pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
+    let CheckArguments { files, sets } = arguments;
+    if let [path] = files.as_slice() {
+        return match kind::any(path, sets)? {
+            Read::Scene(checked) => say(&scene_text::rows(&checked)),
+            read => say(&line(path, &read)?),
+        };
+    }
+    let mut bad = 0;
+    for path in files {
+        match kind::any(path, sets).and_then(|read| line(path, &read)) {
+            Ok(line) => say(&line)?,
+            Err(failure) => {
+                failure.print();
+                bad += 1;
+            }
         }
     }
-    for (name, names) in &checked.copied {
-        let first = names.first();
-        let first = first.and_then(|first| scene.surfaces.get(first).zip(size.surfaces.get(first)));
-        if let Some((surface, size)) = first {
-            let each = surface_text(surface, size);
-            rows.push(row("surface", format!("{name}: {} copies, each {each}", names.len())));
-        }
+    match bad {
+        0 => Ok(()),
+        _ => Err(Failure::Input(anyhow!("{bad} of {} files cannot be used", files.len()))),
     }
-    let of_stream = |name: &String| checked.is_streamed(name);
-    for (name, body) in scene.bodies.iter().filter(|(name, _)| !of_stream(name)) {
-        if let Some(solid) = checked.solids.get(name) {
-            rows.push(row("body", format!("{name}: {}", body_text(body, solid))));
-        }
-    }
-    for (name, stream) in &scene.streams {
-        let first = checked.streamed.get(name).and_then(|names| names.first());
-        let first = first.and_then(|first| scene.bodies.get(first).zip(checked.solids.get(first)));
-        if let Some((body, solid)) = first {
-            let names = checked.streamed.get(name);
-            let last = names.and_then(|names| checked.due.get(names.last()?)).copied();
-            let (count, last) = (stream.count, time(last.unwrap_or(0.0)));
-            let first = body_text(body, solid);
-            rows.push(row(
-                "stream",
-                format!("{name}: {count} within {last}, the first one {first}"),
-            ));
-        }
-    }
-    let run = &scene.run;
-    let stop = stop_text(&run.stop);
-    let accuracy = digits(run.accuracy);
-    rows.push(row("run", format!("until {stop}, {:?}, accuracy {accuracy}", run.resolve)));
-    rows.push(row("memory", format!("{} for the nodes", memory(size.memory))));
-    rows.push(row("time", format!("roughly {}", time(size.seconds))));
-    rows.extend(checked.notes.iter().map(|note| row("note", note.clone())));
-    rows.concat()
 }
 
-fn row(name: &str, text: String) -> String {
-    format!("{name:<8} {text}\n")
-}
-
-fn surface_text(surface: &SceneSurface, size: &SurfaceSize) -> String {
-    let flow = match surface.flow {
-        FlowLaw::CapozzaHanley { lateral: Lateral::Projected } => "CapozzaHanley(Projected)",
-        FlowLaw::CapozzaHanley { lateral: Lateral::Eq5 } => "CapozzaHanley(Eq5)",
-        FlowLaw::NormalPressure {} => "NormalPressure",
-    };
-    let elastic = match surface.elastic {
-        ElasticLaw::Foundation { .. } => "Foundation".to_owned(),
-        ElasticLaw::HertzNodes { convention, .. } => format!("HertzNodes({convention:?})"),
-        ElasticLaw::Rigid => "Rigid".to_owned(),
-    };
-    let removal = match surface.removal {
-        Removal::All => "all removed",
-        Removal::Fraction { .. } => "a fraction removed",
-        Removal::AttackAngle { .. } => "removed by attack angle",
-    };
-    let layout = match size.columns_rows {
-        Some([columns, rows]) => format!("{columns} x {rows}, {} apart", length(size.pitch)),
-        None => format!("closed, about {} apart", length(size.pitch)),
-    };
-    let motion = match &surface.motion {
-        SurfaceMotion::Fixed => String::new(),
-        SurfaceMotion::Kinematic { velocity, spin } => {
-            let (speed, spin) = (digits(norm(velocity)), digits(norm(spin)));
-            format!("; led at {speed} m/s and {spin} rad/s")
+fn line(path: &Path, read: &Read) -> Result<String, Failure> {
+    let (name, text) = match read {
+        Read::Scene(checked) => (&checked.scene.name, scene_text::line(checked)),
+        Read::Erosion(file) => {
+            let cases = count(file.cases().len(), "case", "cases");
+            (&file.name, format!("erosion study, {cases}"))
         }
-        SurfaceMotion::Reciprocating { amplitude, frequency, .. } => {
-            let (stroke, frequency) = (length(2.0 * norm(amplitude)), digits(*frequency));
-            format!("; led to and fro over {stroke} at {frequency} Hz")
+        Read::Asperities(file) => {
+            let elements = adhesive::element_count(file).map_err(failure)?;
+            let elements = count(elements, "element", "elements");
+            (&file.name, format!("two asperities, {elements}"))
         }
-        SurfaceMotion::Rocking { angle, frequency, .. } => {
-            let (angle, frequency) = (digits(2.0 * angle.abs().to_degrees()), digits(*frequency));
-            format!("; led to and fro through {angle} deg at {frequency} Hz")
-        }
-        SurfaceMotion::Path { points, file, repeat, .. } => {
-            let again = if *repeat { ", again and again" } else { "" };
-            let through = match file {
-                Some(file) => format!("the points of `{file}`"),
-                None => format!("{} points", points.len()),
-            };
-            format!("; led through {through}{again}")
-        }
-        SurfaceMotion::Free { density, velocity, .. } => {
-            format!("; free at {} m/s, {} kg/m3", digits(norm(velocity)), digits(*density))
+        Read::Map(file) => {
+            let cases = count(file.cases().len(), "case", "cases");
+            (&file.name, format!("map of two asperities, {cases}"))
         }
     };
-    let (nodes, material) = (size.nodes, &surface.material);
-    format!("{nodes} nodes ({layout}); {flow}, {elastic}, {removal}; {material}{motion}")
-}
-
-fn norm(v: &[f64; 3]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-fn body_text(body: &SceneBody, solid: &Solid) -> String {
-    let shape = match &body.shape {
-        SceneShape::Ball { .. } => "ball".to_owned(),
-        SceneShape::Cuboid { .. } => "cuboid".to_owned(),
-        SceneShape::Polyhedron { kind, .. } => format!("{kind:?}").to_lowercase(),
-        SceneShape::ConvexHull { .. } => "convex hull".to_owned(),
-        SceneShape::Grain { spheres: None, .. } => "grain".to_owned(),
-        SceneShape::Grain { .. } => format!("grain of {} spheres", solid.shape.pieces().len()),
-        SceneShape::Clump { .. } => format!("clump of {} spheres", solid.shape.pieces().len()),
-    };
-    let reach = length(solid.shape.bounding_radius());
-    let turned = match body.rotation {
-        Rotation::Random { seed } => format!(", turned at random (seed {seed})"),
-        _ => String::new(),
-    };
-    let motion = match &body.motion {
-        Motion::Impact { speed, angle, .. } => {
-            format!("impact at {} m/s, {} deg", digits(*speed), digits(angle.to_degrees()))
-        }
-        Motion::Fixed => return format!("{shape}, reach {reach}{turned}; fixed"),
-        Motion::Free { velocity, .. } => format!("free at {} m/s", digits(norm(velocity))),
-        Motion::Drive { indent_to, distance, .. } => {
-            format!("driven to {} N over {}", digits(*indent_to), length(*distance))
-        }
-    };
-    let mass = digits(solid.inertia.mass);
-    format!("{shape}, {mass} kg, reach {reach}{turned}; {motion}")
-}
-
-fn stop_text(stop: &Stop) -> String {
-    match stop {
-        Stop::AllRebounded => "every body has left or rests, or has slid its distance".into(),
-        Stop::FirstExit => "the first exit".into(),
-        Stop::Time { limit } => time(*limit),
-        Stop::Distance => "the distance is slid".into(),
-        Stop::Impacts { count } => format!("{count} impacts"),
-    }
+    Ok(format!("{}: {name}: {text}\n", path.display()))
 }

@@ -1,6 +1,6 @@
 //! `abrade clump`: mass properties and overlaps of a clump file, and conversion.
 
-use abrade_report::quantity_text::digits;
+use abrade_report::quantity_text::{count, digits};
 use abrade_scene::clump::{self, ClumpFile, Format, Report};
 use anyhow::{Context, anyhow};
 
@@ -68,7 +68,6 @@ fn overlaps(report: &Report) -> String {
     let share = digits(100.0 * report.overlap_share().max(0.0));
     match report.overlapping_pairs {
         0 => "none".into(),
-        1 => format!("1 pair, {share} % of the spheres' volume"),
-        pairs => format!("{pairs} pairs, {share} % of the spheres' volume"),
+        pairs => format!("{}, {share} % of the spheres' volume", count(pairs, "pair", "pairs")),
     }
 }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use abrade_report::Summary;
-use abrade_report::quantity_text::{digits, length, volume};
+use abrade_report::quantity_text::{count, digits, length, volume};
 use abrade_report::summary::ErosionSummary;
 use abrade_scene::Checked;
 use abrade_scene::scene::Output;
@@ -38,11 +38,11 @@ fn write_digest(
     let is_copy = |name: &String| checked.copied.values().any(|names| names.contains(name));
     for (name, surface) in summary.surfaces.iter().filter(|(name, _)| !is_copy(name)) {
         let mut parts = format!(
-            "displaced {}, deepest {}, {} of {} nodes",
+            "displaced {}, deepest {}, {} of {}",
             volume(surface.wear_volume),
             length(surface.max_depth),
             surface.worn_nodes,
-            surface.nodes
+            count(surface.nodes, "node", "nodes")
         );
         let removed = volume(surface.removed_volume);
         if removed != volume(surface.wear_volume) {
@@ -52,17 +52,17 @@ fn write_digest(
             write!(parts, ", chips {}", volume(surface.chip_volume))?;
         }
         if let Some(rate) = surface.wear_rate {
-            write!(parts, ", at the end {} mm3 per mm", digits(rate * 1e6))?;
+            write!(parts, ", wear rate at the end {} mm3/mm", digits(rate * 1e6))?;
         }
         writeln!(out, "  surface {name:12} {parts}")?;
     }
     for (name, names) in &checked.copied {
         let copies: Vec<_> = names.iter().filter_map(|name| summary.surfaces.get(name)).collect();
         let displaced: f64 = copies.iter().map(|copy| copy.wear_volume).sum();
-        let (all, displaced) = (copies.len(), volume(displaced));
+        let (all, displaced) = (count(copies.len(), "copy", "copies"), volume(displaced));
         let deepest = length(copies.iter().map(|copy| copy.max_depth).fold(0.0, f64::max));
         let worn = copies.iter().filter(|copy| copy.wear_volume > 0.0).count();
-        let line = format!("{all} copies, {worn} worn, displaced {displaced}, deepest {deepest}");
+        let line = format!("{all}, {worn} worn, displaced {displaced}, deepest {deepest}");
         writeln!(out, "  surface {name:12} {line}")?;
     }
     let of_stream = |name: &String| checked.is_streamed(name);
@@ -79,11 +79,12 @@ fn write_digest(
     for (name, names) in &checked.streamed {
         let struck = names.iter().filter_map(|name| summary.bodies.get(name)?.restitution);
         let struck: Vec<f64> = struck.collect();
-        let (all, count) = (names.len(), struck.len());
-        let mean = struck.iter().sum::<f64>() / count as f64;
-        let line = match count {
-            0 => format!("{all} bodies, none of which has struck and left"),
-            _ => format!("{all} bodies, {count} have struck and left, mean restitution {mean:.4}"),
+        let (all, left) = (count(names.len(), "body", "bodies"), struck.len());
+        let mean = struck.iter().sum::<f64>() / left as f64;
+        let line = match left {
+            0 => format!("{all}, none of which has struck and left"),
+            1 => format!("{all}, 1 has struck and left, restitution {mean:.4}"),
+            _ => format!("{all}, {left} have struck and left, mean restitution {mean:.4}"),
         };
         writeln!(out, "  stream  {name:12} {line}")?;
     }
@@ -118,17 +119,21 @@ fn write_digest(
         let own = volume(laws.wear_volume);
         let said: Vec<_> =
             laws.predicted.iter().map(|(name, sum)| format!("{name} {}", volume(*sum))).collect();
-        let count = laws.impacts;
+        let impacts = count(laws.impacts, "impact", "impacts");
         let said = said.join(", ");
-        writeln!(out, "  laws    {count} impacts over, displaced {own}; by the laws {said}")?;
+        writeln!(out, "  laws    {impacts} over, displaced {own}; by the laws {said}")?;
     }
     for warning in &summary.warnings {
         writeln!(out, "  note: {warning}")?;
     }
     writeln!(
         out,
-        "  {:.3e} s simulated, {} contact steps, {} node evaluations, {:.3} s ({})",
-        summary.simulated, summary.steps, summary.node_evaluations, summary.wall, summary.precision
+        "  {:.3e} s simulated, {}, {}, {:.3} s ({})",
+        summary.simulated,
+        count(summary.steps, "contact step", "contact steps"),
+        count(summary.node_evaluations, "node evaluation", "node evaluations"),
+        summary.wall,
+        summary.precision
     )?;
     let picture = checked.scene.outputs.contains(&Output::Picture);
     let single = summary.surfaces.keys().filter(|name| !is_copy(name));
@@ -156,8 +161,9 @@ fn erosion_text(erosion: &ErosionSummary) -> String {
     let per_mass = |rate: Option<f64>| rate.map_or(String::new(), |r| format!(" ({r:.3e} kg/kg)"));
     let ErosionSummary { struck, mass, rate, .. } = *erosion;
     let mut text = format!(
-        "{rate:.4} mm3/kg{} by {struck} bodies of {:.4e} kg",
+        "{rate:.4} mm3/kg{} by {} of {:.4e} kg",
         per_mass(erosion.rate_by_mass),
+        count(struck, "body", "bodies"),
         mass
     );
     if let Some((steady, deviation)) = erosion.steady.zip(erosion.steady_deviation) {

@@ -8,7 +8,10 @@ use crate::arguments::FileArguments;
 use crate::failure::Failure;
 use crate::progress::Bar;
 use crate::study::failure;
-use crate::{interrupt, kind, output_folder, say};
+use crate::{earlier, interrupt, kind, output_folder, say};
+
+/// Files of a study beside those of its cases.
+pub(crate) const TABLES: [&str; 3] = ["report.html", "cases.csv", "grains.csv"];
 
 /// A study, and where its files and its results lie.
 pub(crate) struct Opened {
@@ -37,6 +40,7 @@ pub(crate) fn open(arguments: &FileArguments) -> Result<Opened, Failure> {
 impl Opened {
     /// Makes those of `cases` that are not there; returns those that cannot be made.
     pub(crate) fn make(&self, cases: &[Case]) -> Result<Vec<Unmade>, Failure> {
+        earlier::make_way_for_cases(&self.out, &TABLES)?;
         output_folder::make(&self.out)?;
         let stop = interrupt::flag();
         let mut bar = Bar::of_cases(&stop);
@@ -65,6 +69,6 @@ impl Opened {
     pub(crate) fn lacks(&self, missing: usize, unmade: &[Unmade]) -> Failure {
         let why: String = unmade.iter().map(|unmade| format!("\n  {unmade}")).collect();
         let all = self.file.cases().len();
-        Failure::Run(anyhow::anyhow!("{missing} of {all} cases are missing{why}"))
+        Failure::Run(anyhow::anyhow!("{} missing{why}", say::of_cases(missing, all)))
     }
 }

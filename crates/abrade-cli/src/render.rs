@@ -1,5 +1,6 @@
 //! Problems of a scene as text: message, file, line and column, the marked lines, what to do.
 
+use abrade_report::quantity_text::count;
 use abrade_scene::{Problem, SceneError, Source};
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
@@ -14,9 +15,8 @@ pub(crate) fn scene_error(error: &SceneError, colour: bool) -> String {
         };
         text += "\n\n";
     }
-    let count = error.problems.len();
-    let problems = if count == 1 { "problem" } else { "problems" };
-    text + &format!("{}: {count} {problems}, nothing was run\n", error.path)
+    let problems = count(error.problems.len(), "problem", "problems");
+    text + &format!("{}: {problems}, nothing was run\n", error.path)
 }
 
 fn group<'a>(problem: &'a Problem, sources: &'a [Source]) -> Group<'a> {

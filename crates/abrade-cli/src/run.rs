@@ -5,13 +5,14 @@ use abrade_scene::{Outcome, RunOptions};
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
 use crate::progress::Bar;
-use crate::{digest, interrupt, kind, output_folder, say};
+use crate::{digest, earlier, interrupt, kind, output_folder, say};
 
 /// Loads and checks the scene, makes sure of its folder, runs it and says what came of it.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let checked = kind::scene(&arguments.scene.scene, &arguments.scene.sets)?;
     let folder = output_folder::chosen(arguments.out.as_deref(), &checked.scene.name);
     output_folder::probe(&folder)?;
+    earlier::make_way_for_run(&folder)?;
     let stop = interrupt::flag();
     let options = RunOptions { folder, precision: arguments.precision.into() };
     let mut bar = Bar::new(&stop);

@@ -2,9 +2,16 @@
 
 use std::io::{ErrorKind, Write};
 
+use abrade_report::quantity_text::count;
 use anyhow::Context;
 
 use crate::failure::Failure;
+
+/// `part of all cases are`, as the words for one case are.
+pub(crate) fn of_cases(part: usize, all: usize) -> String {
+    let are = if all == 1 { "is" } else { "are" };
+    format!("{part} of {} {are}", count(all, "case", "cases"))
+}
 
 /// Prints `text`. A reader that has gone, as in `abrade schema | head`, is no fault.
 pub(crate) fn say(text: &str) -> Result<(), Failure> {

@@ -6,7 +6,7 @@ use abrade_study::convergence::{Plan, Variant, convergence as study};
 use crate::arguments::{ConvergenceArguments, Vary};
 use crate::failure::Failure;
 use crate::progress::Bar;
-use crate::{interrupt, kind, output_folder, say};
+use crate::{earlier, interrupt, kind, output_folder, say};
 
 /// Runs the scene at ladders of settings and says what came of it.
 pub(crate) fn convergence(arguments: &ConvergenceArguments) -> Result<(), Failure> {
@@ -15,6 +15,7 @@ pub(crate) fn convergence(arguments: &ConvergenceArguments) -> Result<(), Failur
     let name = format!("{}, convergence", checked.scene.name);
     let folder = output_folder::chosen(arguments.out.as_deref(), &name);
     output_folder::probe(&folder)?;
+    earlier::make_way_for_convergence(&folder)?;
     let plan = Plan {
         variants: variants(&arguments.vary),
         landings: arguments.landings,

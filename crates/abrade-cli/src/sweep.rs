@@ -6,7 +6,8 @@ use abrade_report::quantity_text::digits;
 use abrade_study::erosion;
 
 use crate::arguments::SweepArguments;
-use crate::erosion::{Opened, open};
+use crate::earlier;
+use crate::erosion::{Opened, TABLES, open};
 use crate::failure::Failure;
 use crate::say;
 use crate::study::failure;
@@ -18,6 +19,7 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
         return list(&opened);
     }
     if let Some(folders) = &arguments.part.merge {
+        earlier::make_way_for_cases(&opened.out, &TABLES)?;
         for folder in folders {
             erosion::gather(&opened.file, &opened.beside, folder, &opened.out).map_err(failure)?;
         }
@@ -28,7 +30,7 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let unmade = opened.make(&cases)?;
     let there = opened.file.cases().iter().filter(|case| opened.has(case)).count();
     let place = opened.out.display();
-    say::say(&format!("{there} of {all} cases are in {place}\n"))?;
+    say::say(&format!("{} in {place}\n", say::of_cases(there, all)))?;
     match unmade.is_empty() {
         true => Ok(()),
         false => Err(opened.lacks(all - there, &unmade)),

@@ -1,19 +1,28 @@
 //! `abrade view`: a page of a finished run.
 
-use abrade_report::quantity_text::memory;
+use abrade_report::quantity_text::{count, memory};
 use abrade_study::adhesive::PICTURE;
 use abrade_view::{Page, ViewError};
 use anyhow::anyhow;
 
 use crate::arguments::ViewArguments;
 use crate::failure::Failure;
-use crate::say;
+use crate::{output_folder, say};
 
 /// Size of a page above which browsers take long to open it [bytes].
 const LARGE: usize = 50_000_000;
 
 /// Reads the run's folder, writes the page and says where it is.
 pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
+    if let Err(error) = arguments.folder.metadata() {
+        let fault = abrade_scene::unread(&arguments.folder, &error);
+        let place = output_folder::chosen(None, &arguments.folder.to_string_lossy());
+        let hint = match place.is_dir() {
+            true => format!("; its run is in `{}`", place.display()),
+            false => String::new(),
+        };
+        return Err(Failure::Input(anyhow!("{fault}{hint}")));
+    }
     if arguments.folder.join(PICTURE).exists() {
         return Err(Failure::Input(anyhow!(
             "{} is the folder of a collision of asperities: open {PICTURE}, or elements.pvd in ParaView",
@@ -24,17 +33,13 @@ pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
     let path = arguments.out.clone().unwrap_or_else(|| arguments.folder.join("view.html"));
     page.write(&path).map_err(|error| Failure::Input(error.into()))?;
     let Page { html, instants, nodes, bodies } = &page;
-    let counted = |count: &usize, one: &str, more: &str| match count {
-        1 => format!("1 {one}"),
-        _ => format!("{count} {more}"),
-    };
     let text = format!(
         "{}\n  {}: {}, {}, {}\n",
         path.display(),
         memory(html.len() as f64),
-        counted(instants, "instant", "instants"),
-        counted(nodes, "node", "nodes"),
-        counted(bodies, "body", "bodies"),
+        count(*instants, "instant", "instants"),
+        count(*nodes, "node", "nodes"),
+        count(*bodies, "body", "bodies"),
     );
     say::say(&text)?;
     if let Some(note) = size_note(html.len()) {

@@ -78,7 +78,7 @@ fn surfaces(summary: &Summary) -> String {
             ("Worn nodes", format!("{} of {}", s.worn_nodes, s.nodes)),
             ("Largest normal force", quantity(s.peak_normal_force, "N")),
             ("Indented area", quantity(s.indented_area, "m²")),
-            ("Volume per distance", optional(s.wear_rate, "m²")),
+            ("Wear rate at the end", optional(s.wear_rate, "m³/m")),
         ];
         if let Some(MotionSummary { position, rotation_xyzw, velocity, spin }) = s.motion {
             rows.extend(motion(&position, &rotation_xyzw, &velocity, &spin));

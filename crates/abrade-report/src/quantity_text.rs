@@ -1,5 +1,7 @@
 //! Numbers with units, for the lines of a terminal.
 
+use std::fmt::Display;
+
 /// A volume [m3] in the unit that suits it.
 pub fn volume(value: f64) -> String {
     let (factor, unit) = match value.abs() {
@@ -67,6 +69,12 @@ fn fitting<const N: usize>(value: f64, units: &[(f64, &'static str); N]) -> (f64
     *fits.unwrap_or(&units[N - 1])
 }
 
+/// How many there are, with the word for `one` of them or for `more`.
+pub fn count<N: Display + PartialEq + From<u8>>(number: N, one: &str, more: &str) -> String {
+    let word = if number == N::from(1) { one } else { more };
+    format!("{number} {word}")
+}
+
 /// Three significant digits, without trailing zeros.
 pub fn digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
@@ -92,5 +100,7 @@ mod tests {
         assert_eq!(energy(2.5195e-11), "25.2 pJ");
         assert_eq!(pressure(1e9), "1 GPa");
         assert_eq!(length_unit(4.2e-8), (1e-9, "nm"));
+        assert_eq!(count(1_u64, "node", "nodes"), "1 node");
+        assert_eq!(count(0.0, "node", "nodes"), "0 nodes");
     }
 }

@@ -129,7 +129,7 @@ pub struct SurfaceSummary {
     /// Largest sum of the effective areas of the nodes in normal flow [m2] (Eq. 19).
     #[serde(rename = "indented_area_m2")]
     pub indented_area: f64,
-    /// Volume per sliding distance over the last `rate_over` of a driven run [m2].
+    /// Wear rate: volume per sliding distance over the last `rate_over` of a driven run [m2], m3 per m.
     #[serde(rename = "wear_rate_m2")]
     pub wear_rate: Option<f64>,
     /// How it moves; `None` for a surface at rest in the world.

@@ -18,6 +18,8 @@ use std::path::{Path, PathBuf};
 use abrade::Ball;
 use nalgebra::{Matrix3, Point3};
 
+use crate::unread::unread;
+
 pub use error::{ClumpError, LineTrouble};
 pub use properties::{Properties, Report, Source};
 pub use write::write;
@@ -98,8 +100,10 @@ pub fn parse(path: &Path, text: &str) -> Result<ClumpFile, ClumpError> {
 }
 
 fn text_of(path: &Path) -> Result<String, ClumpError> {
-    let bytes = std::fs::read(path)
-        .map_err(|error| ClumpError::Unreadable { path: path.to_owned(), reason: error.kind() })?;
+    let bytes = std::fs::read(path).map_err(|error| ClumpError::Unreadable {
+        path: path.to_owned(),
+        reason: unread(path, &error),
+    })?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 

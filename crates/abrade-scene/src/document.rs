@@ -4,14 +4,15 @@
 use std::path::Path;
 
 use abrade::ParameterError;
-use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
 
+use crate::deserialise::{deserialise, options};
 use crate::patched::Patched;
 use crate::problem::{Mark, Problem, SceneError};
 use crate::refusal;
 use crate::set;
 use crate::spans::{self, Kind, Node, ScenePath};
+use crate::unread::unread;
 
 /// A kind of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,7 +40,7 @@ impl<T: DeserializeOwned> Document<T> {
     /// It cannot be read, is not RON, or a word or value does not fit its place.
     pub fn load(path: &Path, sets: &[String], kind: FileKind) -> Result<Self, SceneError> {
         let name = path.display().to_string();
-        let read = std::fs::read(path).map_err(|error| error.kind().to_string());
+        let read = std::fs::read(path).map_err(|error| unread(path, &error));
         let text = read.and_then(|bytes| {
             String::from_utf8(bytes).map_err(|_| "it is not a text in UTF-8".to_owned())
         });
@@ -156,7 +157,7 @@ fn value_and_tree<T: DeserializeOwned>(
         return Err(problems);
     }
     check_version(patched, &tree, kind).map_err(|problem| vec![problem])?;
-    let value = deserialise(patched, &tree).map_err(|problem| vec![problem])?;
+    let value = deserialise(patched, &tree)?;
     Ok((value, tree))
 }
 
@@ -195,28 +196,6 @@ fn check_version(patched: &Patched, tree: &Node, kind: FileKind) -> Result<(), P
     let label = format!("this program reads version {known}");
     let mark = patched.mark(found.node.span.clone(), label);
     Err(Problem { message, marks: vec![mark], help: None })
-}
-
-fn deserialise<T: DeserializeOwned>(patched: &Patched, tree: &Node) -> Result<T, Problem> {
-    let text = &patched.text;
-    let mut deserializer = ron::Deserializer::from_str_with_options(text, &options())
-        .map_err(|error| refusal::syntax(patched, &error))?;
-    let value = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
-        let path = refusal::scene_path(error.path());
-        let error = deserializer.span_error(error.into_inner());
-        match path {
-            Some(path) => refusal::refusal(patched, tree, &path, &error),
-            None => refusal::syntax(patched, &error),
-        }
-    })?;
-    deserializer
-        .end()
-        .map_err(|error| refusal::syntax(patched, &deserializer.span_error(error)))?;
-    Ok(value)
-}
-
-fn options() -> ron::Options {
-    ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME)
 }
 
 /// Names that a map gives twice: RON would keep the last one in silence.

@@ -1,6 +1,7 @@
 //! From the hardness map and the regions of a surface to the hardness of every node.
 
 use abrade::ParameterError;
+use abrade_report::quantity_text::count;
 use nalgebra::Point3;
 
 use crate::number_rows::{Line, Rows};
@@ -37,7 +38,8 @@ impl Places {
         let mut places = Vec::with_capacity(rows.rows.len());
         for (row, (numbers, line)) in rows.rows.iter().zip(&rows.lines).enumerate() {
             let &[x, y, z, hardness] = &numbers[..] else {
-                let fault = format!("has {} numbers, not x, y, z and a hardness", numbers.len());
+                let numbers = count(numbers.len(), "number", "numbers");
+                let fault = format!("has {numbers}, not x, y, z and a hardness");
                 return Err((line.clone(), fault));
             };
             if let Some(error) = check(hardness, of_material) {

@@ -8,6 +8,8 @@ use std::path::Path;
 use nalgebra::Point3;
 use thiserror::Error;
 
+use crate::unread::unread;
+
 /// A mesh file that cannot be read.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("the mesh `{file}` cannot be read: {reason}")]
@@ -32,7 +34,8 @@ const STL_SIZE: [usize; 2] = [84, 50];
 /// in `.obj` is an OBJ file, any other one STL.
 pub(crate) fn read(folder: &Path, file: &str, scale: f64) -> Result<Facets, FileTrouble> {
     let fail = |reason: String| FileTrouble { file: file.to_owned(), reason };
-    let bytes = std::fs::read(folder.join(file)).map_err(|e| fail(e.kind().to_string()))?;
+    let path = folder.join(file);
+    let bytes = std::fs::read(&path).map_err(|error| fail(unread(&path, &error)))?;
     let is_obj = Path::new(file).extension().is_some_and(|end| end.eq_ignore_ascii_case("obj"));
     if is_obj { obj(&bytes, scale) } else { stl(bytes, scale) }.map_err(fail)
 }

@@ -3,7 +3,10 @@
 
 use std::path::Path;
 
+use abrade_report::quantity_text::count;
 use thiserror::Error;
+
+use crate::unread::unread;
 
 /// A file of rows that cannot be used.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -35,12 +38,12 @@ pub(crate) struct Rows {
 
 /// Reads `file`, which holds `what` and lies in `folder`.
 pub(crate) fn read(folder: &Path, what: &'static str, file: &str) -> Result<Rows, RowsTrouble> {
-    let bytes = std::fs::read(folder.join(file)).map_err(|error| {
-        let reason = error.kind().to_string();
+    let path = folder.join(file);
+    let bytes = std::fs::read(&path).map_err(|error| {
+        let reason = unread(&path, &error);
         RowsTrouble::Unreadable { what, file: file.to_owned(), reason }
     })?;
-    let path = folder.join(file).display().to_string();
-    parse(&path, &String::from_utf8_lossy(&bytes))
+    parse(&path.display().to_string(), &String::from_utf8_lossy(&bytes))
 }
 
 /// Pairs of numbers from `file`, which holds `what` and lies in `folder`: for files of other rooms.
@@ -59,7 +62,8 @@ fn pairs(found: &Rows) -> Result<Vec<[f64; 2]>, String> {
     let pair = |(row, line): (&Vec<f64>, &Line)| match row[..] {
         [x, y] => Ok([x, y]),
         _ => {
-            Err(format!("line {} of `{}` has {} numbers, not 2", line.number, line.file, row.len()))
+            let numbers = count(row.len(), "number", "numbers");
+            Err(format!("line {} of `{}` has {numbers}, not 2", line.number, line.file))
         }
     };
     found.rows.iter().zip(&found.lines).map(pair).collect()
@@ -98,7 +102,7 @@ mod tests {
     fn pairs_are_two_numbers_a_line() {
         let of = |text: &str| pairs(&parse("line.csv", text).expect("rows"));
         assert_eq!(of("0, 1\n2 3"), Ok(vec![[0.0, 1.0], [2.0, 3.0]]));
-        assert_eq!(of("0 1\n2"), Err("line 2 of `line.csv` has 1 numbers, not 2".into()));
+        assert_eq!(of("0 1\n2"), Err("line 2 of `line.csv` has 1 number, not 2".into()));
     }
 
     /// Fails for a reader that counts rows instead of lines, or reads a comment.

@@ -97,13 +97,19 @@ pub(crate) fn nearest<'a>(
     found: &str,
     known: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
+    near(found, known.into_iter().map(|name| (name, name))).first().copied()
+}
+
+/// Of `known`, a name with what it stands for each, those like `found`; the likest first.
+pub(crate) fn near<'a>(
+    found: &str,
+    known: impl IntoIterator<Item = (&'a str, &'a str)>,
+) -> Vec<&'a str> {
     let likeness = |name: &str| strsim::jaro_winkler(&found.to_lowercase(), &name.to_lowercase());
-    known
-        .into_iter()
-        .map(|name| (likeness(name), name))
-        .filter(|(likeness, _)| *likeness > 0.7)
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, name)| name)
+    let like = known.into_iter().map(|(name, whole)| (likeness(name), whole));
+    let mut like: Vec<_> = like.filter(|(likeness, _)| *likeness > 0.7).collect();
+    like.sort_by(|a, b| b.0.total_cmp(&a.0));
+    like.into_iter().map(|(_, whole)| whole).collect()
 }
 
 /// `did you mean ..?`, if a known name is near.

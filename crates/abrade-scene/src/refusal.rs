@@ -128,10 +128,18 @@ fn structure(patched: &Patched, found: &Found, name: &str, error: &SpannedError)
         (Error::ExpectedStructLikeEnd, Kind::List { .. }) => "expected fewer values".into(),
         _ => return syntax(patched, error),
     };
+    let word = match found.node.kind {
+        Kind::Word => Some(&text[found.node.span.clone()]),
+        _ => None,
+    };
     Problem {
         message: format!("{name} has the wrong form"),
         marks: vec![patched.mark(found.place(text), label)],
-        help: None,
+        help: word.map(|word| {
+            format!(
+                "`{word}()` leaves every field at its default; one without a default must be given"
+            )
+        }),
     }
 }
 

@@ -59,6 +59,11 @@ pub trait Progress {
     /// Called once per step of the engine. `share` is the part done, if the stop rule tells; a
     /// `false` breaks the run off, its results so far are kept.
     fn advance(&mut self, simulated: f64, share: Option<f64>) -> bool;
+
+    /// Called by work of several cases, before the calls that it concerns: `over` of `all` are made.
+    fn cases(&mut self, over: usize, all: usize) {
+        let _ = (over, all);
+    }
 }
 
 /// A run that failed.

@@ -6,12 +6,14 @@
 mod lexer;
 mod parser;
 mod path;
+mod top;
 
 use std::ops::Range;
 
 pub(crate) use parser::parse;
 pub use path::path;
 pub(crate) use path::{ScenePath, Segment};
+pub use top::field_names;
 
 /// A value and its place in the text.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use abrade_report::ReportError;
+use abrade_report::quantity_text::count;
 use abrade_scene::{GrainError, RunError, SceneError};
 use thiserror::Error;
 
@@ -10,7 +11,7 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 pub enum StudyError {
     /// The scene, as the study varies it, is wrong.
-    #[error("{}: {} faults", .0.path, .0.problems.len())]
+    #[error("{}: {}", .0.path, count(.0.problems.len(), "fault", "faults"))]
     Scene(SceneError),
     /// A run could not be made at all.
     #[error(transparent)]

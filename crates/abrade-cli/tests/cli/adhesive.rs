@@ -75,6 +75,38 @@ fn the_folder_of_a_collision_is_not_viewed() {
     assert!(said.err.contains("open asperities.png"), "{}", said.err);
 }
 
+/// Fails for a check that knows scenes alone, stops at the first file that cannot be used, or shows its faults
+/// in other words than the command that reads it.
+#[test]
+fn check_takes_files_of_every_kind() {
+    let folder = Folder::new("check_kinds");
+    folder.write("bodies.ron", SCENE);
+    folder.write("map.ron", MAP);
+    folder.write("study.ron", crate::studies::EROSION);
+    let said = folder.abrade(&["check", "scene.ron", "bodies.ron", "map.ron", "study.ron"]);
+    assert_eq!((said.code, said.err.as_str()), (Some(0), ""));
+    assert_eq!(
+        said.out,
+        "scene.ron: Oblique impact of a ball: scene, 1 surface, 18480 nodes, 1 body, roughly 2.6 ms
+bodies.ron: brittle: two asperities, 3586 elements
+map.ron: small map: map of two asperities, 6 cases
+study.ron: two grains: erosion study, 2 cases
+"
+    );
+    folder.write("overlap.ron", &SCENE.replace("travel", "gap: -4.0, travel"));
+    folder.write("frayed.ron", &SCENE.replace("frames: 2,", "frames: 2"));
+    let bad = ["overlap.ron", "frayed.ron", "bodies.ron", "none.ron"];
+    let said = folder.abrade(&[&["check"], &bad[..]].concat());
+    assert_eq!(said.code, Some(2), "{}", said.err);
+    assert_eq!(said.out, "bodies.ron: brittle: two asperities, 3586 elements\n");
+    let mut told = String::new();
+    for command in ["overlap.ron", "frayed.ron", "none.ron"] {
+        told += &folder.abrade(&["adhesive", "run", command]).err;
+    }
+    assert_eq!(said.err, told + "error: 3 of 4 files cannot be used\n");
+    assert!(!folder.0.join("runs/brittle/summary.json").exists());
+}
+
 /// Fails for a file of another kind that is answered with the words that are strange here, and for a fault in
 /// an argument that is taken for one of the file.
 #[test]
@@ -85,7 +117,7 @@ fn a_file_of_another_kind_is_told_by_its_command() {
     let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/one_ball.ron");
     for (arguments, command) in [
         (&["run", "bodies.ron"][..], "`abrade adhesive run`"),
-        (&["check", "map.ron"], "`abrade adhesive map`"),
+        (&["run", "map.ron"], "`abrade adhesive map`"),
         (&["adhesive", "run", "map.ron"], "`abrade adhesive map`"),
         (&["study", "erosion", scene], "`abrade run`"),
     ] {
@@ -93,6 +125,9 @@ fn a_file_of_another_kind_is_told_by_its_command() {
         assert_eq!(said.code, Some(2), "{arguments:?}: {}", said.err);
         assert!(said.err.ends_with(&format!("is a file for {command}\n")), "{}", said.err);
     }
+    folder.write("bad.ron", &SCENE.replace("rows: 5", "row: 5"));
+    let said = folder.abrade(&["run", "bad.ron"]);
+    assert!(said.err.ends_with("is a file for `abrade adhesive run`\n"), "{}", said.err);
     let said = folder.abrade(&["adhesive", "run", "bodies.ron", "--set", "bodis.gap=1.0"]);
     assert!(said.err.contains("did you mean `bodies`?"), "{}", said.err);
 }

@@ -72,7 +72,7 @@ fn a_hardness_map_that_is_not_there() {
         &[(LAW, MAP)],
         &[],
         &[],
-        r#"error: the hardness map `weld.csv` cannot be read: entity not found
+        r#"error: the hardness map `weld.csv` cannot be read: there is no `weld.csv` in `{here}`
   --> scene.ron:14:28
    |
 14 |       hardness_map: (file: "weld.csv", scale: 1e-3),

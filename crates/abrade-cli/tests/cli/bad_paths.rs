@@ -126,7 +126,7 @@ scene.ron: 1 problem, nothing was run
         &[(FIXED, FILE)],
         &[],
         &[],
-        r#"error: the path `path.csv` cannot be read: entity not found
+        r#"error: the path `path.csv` cannot be read: there is no `path.csv` in `{here}`
   --> scene.ron:14:26
    |
 14 |       motion: Path(file: "path.csv"),

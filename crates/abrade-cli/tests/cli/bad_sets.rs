@@ -132,11 +132,27 @@ fn an_unwritable_output_folder() {
     assert_eq!(folder.files(), ["scene.ron"]);
 }
 
+/// Fails for a file that is told as missing without the folder that was looked in, and for names that are alike by
+/// their endings alone.
 #[test]
 fn a_scene_that_is_not_there() {
     let folder = Folder::new("a_scene_that_is_not_there");
-    let said = folder.abrade(&["check", "none.ron"]);
-    let message = "error: the scene cannot be read: entity not found\n --> none.ron\n\n\
-                   none.ron: 1 problem, nothing was run\n";
-    assert_eq!((said.code, said.err.as_str()), (Some(2), message));
+    folder.write("scent.ron", "");
+    let here = folder.0.display();
+    for (name, why) in [
+        ("x.ron", format!("there is no `x.ron` in `{here}`")),
+        (
+            "scena.ron",
+            format!(
+                "there is no `scena.ron` in `{here}`; did you mean `scene.ron` or `scent.ron`?"
+            ),
+        ),
+        ("none/x.ron", format!("there is no folder `{here}/none`")),
+    ] {
+        let said = folder.abrade(&["run", name]);
+        let message = format!(
+            "error: the scene cannot be read: {why}\n --> {name}\n\n{name}: 1 problem, nothing was run\n"
+        );
+        assert_eq!((said.code, said.err), (Some(2), message));
+    }
 }

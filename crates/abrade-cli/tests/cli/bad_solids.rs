@@ -13,7 +13,7 @@ fn a_mesh_file_that_is_not_there() {
         &[(PLATE, r#"Mesh(file: "liner.stl")"#), (ON, AT)],
         &[],
         &[],
-        r#"error: the mesh `liner.stl` cannot be read: entity not found
+        r#"error: the mesh `liner.stl` cannot be read: there is no `liner.stl` in `{here}`
   --> scene.ron:11:28
    |
 11 |       geometry: Mesh(file: "liner.stl"),

@@ -22,6 +22,49 @@ scene.ron: 1 problem, nothing was run
     );
 }
 
+/// Fails for a scene whose misspelt words are told one by one, and for a field that must be given and is called
+/// missing after its misspelt name was told.
+#[test]
+fn misspelt_fields_are_told_together() {
+    refused(
+        "misspelt_fields_are_told_together",
+        &[
+            ("friction", "frction"),
+            ("pitch:", "pich:"),
+            ("removal: All,", "removal: All, // \u{b5}"),
+            ("speed", "sped"),
+        ],
+        &[],
+        &[],
+        r#"error: unknown field `frction` in `materials.plate`
+ --> scene.ron:6:87
+  |
+6 |     "plate": (hardness: "6.6 GPa", shear_ratio: 0.25, young: "200 GPa", poisson: 0.3, frction: 0.5),
+  |                                                                                       ^^^^^^^ expected `hardness`, `shear_ratio`, `young`, `poisson` or `friction`
+  |
+  = help: did you mean `friction`?
+
+error: unknown field `pich` in `surfaces.plate.geometry`
+  --> scene.ron:11:59
+   |
+11 |       geometry: HexStrip(length: "30 mm", width: "12 mm", pich: "0.15 mm"),
+   |                                                           ^^^^ expected `length`, `width`, `pitch`, `nodes` or `rest_area`
+   |
+   = help: did you mean `pitch`?
+
+error: unknown field `sped` in `bodies.ball.motion`
+  --> scene.ron:24:22
+   |
+24 |       motion: Impact(sped: "35 m/s", angle: "45 deg"),
+   |                      ^^^^ expected `speed`, `angle`, `azimuth` or `spin`
+   |
+   = help: did you mean `speed`?
+
+scene.ron: 3 problems, nothing was run
+"#,
+    );
+}
+
 #[test]
 fn an_unknown_variant() {
     refused(
@@ -166,6 +209,8 @@ fn a_variant_that_needs_parentheses() {
    |
 13 |       elastic: Foundation,
    |                ^^^^^^^^^^ expected `Foundation(..)`
+   |
+   = help: `Foundation()` leaves every field at its default; one without a default must be given
 
 scene.ron: 1 problem, nothing was run
 "#,

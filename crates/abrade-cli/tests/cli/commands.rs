@@ -66,7 +66,10 @@ fn wrong_usage_is_bad_input() {
     assert_eq!(folder.abrade(&["fly"]).code, Some(2));
     assert_eq!(
         folder.abrade(&["clump", "none.txt"]).err,
-        "error: cannot read `none.txt`: entity not found\n"
+        format!(
+            "error: cannot read `none.txt`: there is no `none.txt` in `{}`\n",
+            folder.0.display()
+        )
     );
     let said = folder.abrade(&["clump", "scene.ron", "--density", "-1"]);
     assert_eq!(said.err, "error: --density is -1, it must be finite and above zero\n");

@@ -11,6 +11,7 @@ mod bad_streams;
 mod bad_values;
 mod bad_words;
 mod commands;
+mod earlier;
 mod laws;
 mod laws_beside;
 mod notes;
@@ -69,7 +70,7 @@ impl Folder {
 }
 
 /// Checks and runs the scene with `changes` (old, new), beside `files` (name, text), with `sets`: it
-/// must be refused with `message` and exit code 2, and nothing left behind.
+/// must be refused with `message`, in which `{here}` is the folder, and exit code 2, and nothing left behind.
 fn refused(
     test: &str,
     changes: &[(&str, &str)],
@@ -88,6 +89,7 @@ fn refused(
         folder.write(name, text);
     }
     let before = folder.files();
+    let message = message.replace("{here}", &folder.0.display().to_string());
     for command in ["check", "run"] {
         let mut arguments = vec![command, "scene.ron"];
         sets.iter().for_each(|set| arguments.extend(["--set", set]));

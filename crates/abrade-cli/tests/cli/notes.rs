@@ -47,6 +47,27 @@ fn a_run_that_failed_says_so_and_nothing_else() {
     assert!(!said.out.contains("restitution"), "{}", said.out);
 }
 
+/// Fails for a wear rate without its name or its unit, and for places that tell different ones.
+#[test]
+fn a_wear_rate_is_told_with_its_unit_and_the_same_everywhere() {
+    let folder = Folder::new("rate");
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/foundation/scratch.ron");
+    let said = folder.abrade(&["run", scene, "--out", "out", "--set", "outputs=[Report]"]);
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    let number = |text: &str, before: &str, after: &str| -> f64 {
+        let (_, rest) = text.split_once(before).expect(before);
+        rest.split_once(after).expect(after).0.trim().parse().expect("a number")
+    };
+    let told = number(&said.out, "wear rate at the end ", " mm3/mm");
+    let read = |name: &str| std::fs::read_to_string(folder.0.join("out").join(name)).unwrap();
+    let kept = number(&read("summary.json"), "\"wear_rate_m2\": ", ",");
+    // Three digits, and one mm2 is 1e-6 m2.
+    assert!((told - 1e6 * kept).abs() < 5e-3 * told, "{told} mm3/mm, {kept} m2");
+    let page = read("report.html");
+    let shown = page.split_once("Wear rate at the end").expect("a row").1;
+    assert!(shown[..100].contains("m³/m"), "{}", &shown[..100]);
+}
+
 /// Fails for a run in a long contact that no interrupt can end.
 #[cfg(unix)]
 #[test]

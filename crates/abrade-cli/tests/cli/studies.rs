@@ -39,7 +39,7 @@ fn bad_input_is_said_before_anything_runs() {
 }
 
 /// A study of two cases with a few impacts each.
-const EROSION: &str = r#"(version: 1, name: "two grains",
+pub(crate) const EROSION: &str = r#"(version: 1, name: "two grains",
   target: (material: (hardness: "1.7 GPa"), density: 7850.0, removal: AttackAngle(critical: "35 deg")),
   grains: { "ball": (form: Sphere), "cube": (form: Polyhedron(kind: Cube)) },
   density: 2650.0, size: Volume(diameter: "200 um"), speeds: ["98 m/s"], angles: ["30 deg"],
@@ -74,6 +74,8 @@ fn an_erosion_study_is_made_whole_or_in_parts() {
     let list = sweep(&["--out", "b", "--list"]).out;
     assert!(list.contains("0  there") && list.contains("1  -"), "{list}");
     assert_eq!(sweep(&["--out", "c", "--merge", "a", "b"]).code, Some(0));
+    let one = sweep(&["--out", "d", "--case", "0", "--set", "grains={\"ball\": (form: Sphere)}"]);
+    assert_eq!(one.out, "1 of 1 case is in d\n", "{}", one.err);
     assert_eq!(table("c"), whole);
 }
 

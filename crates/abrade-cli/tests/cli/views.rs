@@ -53,3 +53,18 @@ fn a_run_without_a_surface_is_told_what_to_write() {
     );
     assert_eq!(said.code, Some(2));
 }
+
+/// Fails for a folder that is not there and is told as one that holds too little, without a word of where its run is.
+#[test]
+fn a_folder_that_is_not_there_is_told_with_what_is() {
+    let folder = Folder::new("view of no folder");
+    run(&folder, "[Energy]");
+    let here = folder.0.display();
+    let said = folder.abrade(&["view", "ru"]);
+    let message = format!("error: there is no `ru` in `{here}`; did you mean `run`?\n");
+    assert_eq!((said.code, said.err), (Some(2), message));
+    assert_eq!(folder.abrade(&["run", "scene.ron", "--set", "name=\"Ball\""]).code, Some(0));
+    let said = folder.abrade(&["view", "Ball"]);
+    let message = format!("error: there is no `Ball` in `{here}`; its run is in `runs/Ball`\n");
+    assert_eq!((said.code, said.err), (Some(2), message));
+}

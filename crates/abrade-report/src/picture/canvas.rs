@@ -52,6 +52,22 @@ impl Default for Text {
     }
 }
 
+/// `text` in lines of at most `width` pixels, broken between words; a word that is longer has a line of its own.
+pub(crate) fn lines(text: &str, look: Text, width: f64) -> Result<Vec<String>, ReportError> {
+    let fonts = Fonts::load()?;
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        let longer = lines.last().map(|line| format!("{line} {word}"));
+        match (longer, lines.last_mut()) {
+            (Some(longer), Some(line)) if fonts.width(&longer, look.size, look.bold) <= width => {
+                *line = longer;
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    Ok(lines)
+}
+
 impl Canvas {
     /// A white sheet for a picture of this size.
     pub(crate) fn new(width: usize, height: usize) -> Result<Self, ReportError> {

@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use super::canvas::{Align, Canvas, Rect, Text};
+use super::canvas::{self, Align, Canvas, Rect, Text};
 use super::colour::{INK, SOFT};
 use super::plan::{colour_bar, shade, shades};
 use super::raster::Grid;
+use super::scale_bar;
 use super::view::Seen;
 use crate::atomic;
 use crate::error::ReportError;
-use crate::units::{of_length, with_unit};
 
 /// Craters in rows and columns.
 #[derive(Clone, Debug)]
@@ -39,8 +39,10 @@ const EDGE: f64 = 190.0;
 const GAP: f64 = 12.0;
 /// Left of the first column, for the names of rows [pixels].
 const LEFT: f64 = 280.0;
-/// Above the first row [pixels].
-const TOP: f64 = 160.0;
+/// From the last line of the head to the first row [pixels].
+const TOP: f64 = 73.0;
+/// Left and right of title and caption [pixels].
+const EDGES: f64 = 40.0;
 /// Right of the last column, for the colour bar [pixels].
 const RIGHT: f64 = 190.0;
 /// Below the last row, for the scale [pixels].
@@ -56,33 +58,33 @@ impl Gallery<'_> {
     pub fn to_png(&self) -> Result<Vec<u8>, ReportError> {
         let [across, down] = [self.columns.len(), self.rows.len()].map(|count| count as f64);
         let width = LEFT + across * (EDGE + GAP) + RIGHT;
-        let height = TOP + down * (EDGE + GAP) + FOOT;
+        let head = self.head(width - 2.0 * EDGES)?;
+        let first = TOP + head.last().map_or(0.0, |(_, down, _)| *down);
+        let height = first + down * (EDGE + GAP) + FOOT;
         let mut canvas = Canvas::new(width as usize, height as usize)?;
-        let look = Text { size: 34.0, bold: true, align: Align::Left, ..Text::default() };
-        let title = canvas.fitted(self.title, look, width - 80.0);
-        canvas.text([40.0, 40.0], &title, look);
-        let small = Text { size: 22.0, bold: false, colour: SOFT, ..look };
-        canvas.text([40.0, 87.0], self.caption, small);
+        for (line, down, look) in &head {
+            canvas.text([EDGES, *down], line, *look);
+        }
         let [reach, deepest] = self.extent();
         for (at, name) in self.columns.iter().enumerate() {
-            canvas.text([place(at, LEFT) + EDGE / 2.0, TOP - 24.0], name, Text::default());
+            canvas.text([place(at, LEFT) + EDGE / 2.0, first - 24.0], name, Text::default());
         }
         for (row, (name, craters)) in self.rows.iter().enumerate() {
             let look = Text { align: Align::Right, ..Text::default() };
             let name = canvas.fitted(name, look, LEFT - 60.0);
-            canvas.text([LEFT - 20.0, place(row, TOP) + EDGE / 2.0], &name, look);
+            canvas.text([LEFT - 20.0, place(row, first) + EDGE / 2.0], &name, look);
             for (column, crater) in craters.iter().enumerate() {
-                let (left, top) = (place(column, LEFT), place(row, TOP));
+                let (left, top) = (place(column, LEFT), place(row, first));
                 let rect = Rect { left, right: left + EDGE, top, bottom: top + EDGE };
                 crater.paint(&mut canvas, &rect, reach, deepest);
                 canvas.frame(&rect, INK)?;
             }
         }
         let end = place(self.columns.len(), LEFT) - GAP;
-        let bottom = place(self.rows.len(), TOP) - GAP;
-        let all = Rect { left: LEFT, right: end, top: TOP, bottom: bottom.min(TOP + 600.0) };
+        let bottom = place(self.rows.len(), first) - GAP;
+        let all = Rect { left: LEFT, right: end, top: first, bottom: bottom.min(first + 600.0) };
         colour_bar(&mut canvas, &all, deepest)?;
-        scale(&mut canvas, [LEFT, bottom + 34.0], reach)?;
+        scale_bar::draw(&mut canvas, [LEFT, bottom + 34.0], EDGE / (2.0 * reach), EDGE / 2.0)?;
         canvas.to_png()
     }
 
@@ -92,6 +94,23 @@ impl Gallery<'_> {
     /// The drawing library's own, or the file system refuses.
     pub fn write(&self, path: &Path) -> Result<(), ReportError> {
         atomic::write(path, &self.to_png()?)
+    }
+
+    /// The lines of title and caption, of `width` pixels at most, each with its middle [pixels] and its look.
+    fn head(&self, width: f64) -> Result<Vec<(String, f64, Text)>, ReportError> {
+        let title = Text { size: 34.0, bold: true, align: Align::Left, ..Text::default() };
+        let caption = Text { size: 22.0, bold: false, colour: SOFT, ..title };
+        let mut head = Vec::new();
+        let mut down = 40.0;
+        for line in canvas::lines(self.title, title, width)? {
+            head.push((line, down, title));
+            down += 47.0;
+        }
+        for line in canvas::lines(self.caption, caption, width)? {
+            head.push((line, down, caption));
+            down += 31.0;
+        }
+        Ok(head)
     }
 
     /// Half the edge of what is shown, and the largest depth [m].
@@ -129,27 +148,14 @@ impl Crater {
     }
 }
 
-/// A bar of a round length beside what is shown.
-fn scale(canvas: &mut Canvas, [left, y]: [f64; 2], reach: f64) -> Result<(), ReportError> {
-    let unit = of_length(reach);
-    let raw = reach / unit.size;
-    let decade = 10f64.powf(raw.log10().floor());
-    let round = [5.0, 2.0, 1.0].map(|f| f * decade).into_iter().find(|length| *length <= raw);
-    let length = round.unwrap_or(decade) * unit.size;
-    let end = left + length / (2.0 * reach) * EDGE;
-    canvas.line(&[[left, y], [end, y]], INK, 3.0)?;
-    let look = Text { align: Align::Left, ..Text::default() };
-    canvas.text([end + 14.0, y], &with_unit(length, unit), look);
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Fails for a gallery that needs craters to be drawn, or that shows them to a scale of their own.
+    /// Fails for a gallery that needs craters to be drawn, that shows them to a scale of their own, or whose
+    /// head is cut where it has few columns.
     #[test]
-    fn all_craters_are_drawn_to_the_scale_of_the_widest_and_deepest() {
+    fn all_craters_are_drawn_to_one_scale_below_a_whole_head() {
         let crater = |size: f64| Crater {
             nodes: vec![[0.0, 0.0, size], [size, -size, size / 2.0], [3.0 * size, 0.0, 0.0]],
             pitch: size,
@@ -161,6 +167,12 @@ mod tests {
             rows: vec![("one".into(), vec![crater(1e-6), crater(2e-6)]), ("none".into(), vec![])],
         };
         assert_eq!(gallery.extent(), [MARGIN * 2e-6, 2e-6]);
+        let one =
+            Gallery { title: "Craters of each grain", caption: "to one scale", ..gallery.clone() };
+        let head: Vec<String> =
+            one.head(200.0).unwrap().into_iter().map(|(line, ..)| line).collect();
+        assert!(head.len() > 2, "the title is in lines: {head:?}");
+        assert_eq!(head.join(" "), "Craters of each grain to one scale");
         assert!(gallery.to_png().unwrap().starts_with(b"\x89PNG"));
         let empty = Gallery { rows: Vec::new(), columns: Vec::new(), ..gallery };
         assert!(empty.to_png().unwrap().starts_with(b"\x89PNG"));

@@ -16,6 +16,7 @@ mod plan;
 mod raster;
 pub(crate) mod regimes;
 pub(crate) mod rounds;
+mod scale_bar;
 mod section;
 mod shading;
 mod slope;
@@ -118,16 +119,23 @@ fn head(canvas: &mut Canvas, left: f64, title: &str, caption: &str) {
 fn caption(nodes: &Nodes, volume: f64) -> String {
     let deepest = nodes.depth.iter().copied().fold(0.0, f64::max);
     if deepest == 0.0 {
-        return format!("no wear  ·  {} nodes", counted(nodes.len()));
+        return format!("no wear  ·  {}", of_nodes(nodes));
     }
     let worn = nodes.depth.iter().filter(|depth| **depth > 0.0).count();
     format!(
-        "wear volume {}  ·  largest depth {}  ·  {} of {} nodes worn",
+        "wear volume {}  ·  largest depth {}  ·  {} of {} worn",
         with_unit(volume, of_volume(volume)),
         with_unit(deepest, of_length(deepest)),
         counted(worn),
-        counted(nodes.len()),
+        of_nodes(nodes),
     )
+}
+
+fn of_nodes(nodes: &Nodes) -> String {
+    match nodes.len() {
+        1 => "1 node".to_owned(),
+        count => format!("{} nodes", counted(count)),
+    }
 }
 
 #[cfg(test)]

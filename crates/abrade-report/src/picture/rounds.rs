@@ -2,6 +2,7 @@
 
 use super::canvas::{Align, Canvas, Rect, Text};
 use super::colour::{self, INK, Rgb, SOFT};
+use super::scale_bar;
 use crate::error::ReportError;
 
 /// Elements at some instants, one below the other.
@@ -42,6 +43,9 @@ const TOP: f64 = 150.0;
 const BETWEEN: f64 = 44.0;
 /// Below the last row, for the colours [pixels].
 const FOOT: f64 = 100.0;
+/// Longest bar that shows the scale, and the room for its name [pixels].
+const BAR: f64 = 200.0;
+const NAME: f64 = 100.0;
 /// A link that was there from the start, and one that was made.
 const OLD: Rgb = [96, 110, 130];
 const NEW: Rgb = [213, 94, 0];
@@ -77,6 +81,7 @@ impl Rounds<'_> {
             canvas.frame(&left, INK)?;
             canvas.frame(&right, INK)?;
         }
+        scale_bar::draw(&mut canvas, [LEFT + WIDTH - BAR - NAME, TOP - 18.0], scale, BAR)?;
         self.legend(&mut canvas, size[1] - FOOT, largest)?;
         canvas.to_png()
     }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use abrade::ParameterError;
+use abrade_report::quantity_text::count;
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 
 use super::{Checker, finite, vector};
@@ -224,10 +225,8 @@ fn waypoint(row: &[f64], scale: f64) -> Result<Waypoint, String> {
         [t, x, y, z] => (t, [x, y, z], [0.0, 0.0, 0.0, 1.0]),
         [t, x, y, z, qx, qy, qz, qw] => (t, [x, y, z], [qx, qy, qz, qw]),
         _ => {
-            let count = row.len();
-            return Err(format!(
-                "has {count} numbers, not t, x, y, z, or these and qx, qy, qz, qw"
-            ));
+            let numbers = count(row.len(), "number", "numbers");
+            return Err(format!("has {numbers}, not t, x, y, z, or these and qx, qy, qz, qw"));
         }
     };
     let rotation = place::rotation(&Rotation::Quaternion { xyzw });

@@ -1,8 +1,8 @@
 //! What can be wrong with a clump file.
 
-use std::io::ErrorKind;
 use std::path::PathBuf;
 
+use abrade_report::quantity_text::count;
 use thiserror::Error;
 
 /// A clump file that cannot be used.
@@ -14,7 +14,7 @@ pub enum ClumpError {
         /// The file.
         path: PathBuf,
         /// Why not.
-        reason: ErrorKind,
+        reason: String,
     },
     /// A line is not what its place demands.
     #[error("{}:{line}: {trouble}; the line is `{text}`", path.display())]
@@ -54,7 +54,7 @@ pub enum LineTrouble {
         word: String,
     },
     /// The wrong number of columns.
-    #[error("it has {found} columns, {expected} are expected")]
+    #[error("it has {}, {expected} are expected", count(*found, "column", "columns"))]
     Columns {
         /// Columns of the line.
         found: usize,

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use abrade::{ElasticLaw, Ledger};
 use abrade_report::Summary;
+use abrade_report::quantity_text::count;
 use abrade_report::summary::{
     BodySummary, EnergySummary, LawsSummary, MotionSummary, ResolverCounts, SurfaceSummary,
 };
@@ -152,9 +153,8 @@ fn warnings(run: &Run<'_>) -> Vec<String> {
             }
             _ => "the result depends on the lattice; take a finer pitch",
         };
-        warnings.push(format!(
-            "the largest contact on `{name}` was carried by {touching} nodes: {cure}"
-        ));
+        let touching = count(touching, "node", "nodes");
+        warnings.push(format!("the largest contact on `{name}` was carried by {touching}: {cure}"));
     }
     let tracks = run.bodies.tracks.iter().enumerate().filter(|(_, track)| !track.is_streamed);
     for (index, track) in tracks {
@@ -170,8 +170,9 @@ fn warnings(run: &Run<'_>) -> Vec<String> {
             Fate::Left | Fate::Stays | Fate::Led => {}
         }
     }
-    for (what, why, count) in &run.bodies.refused {
-        warnings.push(format!("{what} was left to the engine in {count} steps, unworn: {why}"));
+    for (what, why, steps) in &run.bodies.refused {
+        let steps = count(*steps, "step", "steps");
+        warnings.push(format!("{what} was left to the engine in {steps}, unworn: {why}"));
     }
     warnings
 }

@@ -3,7 +3,7 @@
 //! given another gap or name, goes on where it is.
 
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Sender};
 
 use abrade_adhesive::{Asperities, Collision, Figures, Solid};
@@ -98,18 +98,23 @@ pub fn make(
         source,
     })?;
     let todo: Vec<&Case> = cases.iter().filter(|case| read(file, case, out).is_none()).collect();
-    let stop = AtomicBool::new(false);
+    let there = cases.len() - todo.len();
+    let (stop, over) = (AtomicBool::new(false), AtomicUsize::new(there));
     let (tell, heard) = mpsc::channel::<Done>();
     std::thread::scope(|scope| {
         let work = scope.spawn(|| {
             todo.par_iter().try_for_each_with(tell, |tell, case| {
                 let made = collide(file, case, tell, &stop)?;
-                Ok(write(file, case, &made, out)?)
+                write(file, case, &made, out)?;
+                over.fetch_add(1, Ordering::Relaxed);
+                Ok(())
             })
         });
-        let mut share = 0.0;
+        let all = cases.len() as f64;
+        let mut share = there as f64 / all;
         for done in heard {
-            share += done.share / todo.len() as f64;
+            progress.cases(over.load(Ordering::Relaxed), cases.len());
+            share += done.share / all;
             if !progress.advance(done.time, Some(share)) {
                 stop.store(true, Ordering::Relaxed);
             }

@@ -21,7 +21,7 @@ pub use file::{MapFile, SceneFile, VERSION};
 pub use fit::Boundary;
 pub use frames::PICTURE;
 pub use map::{Map, Point, result};
-pub use run::{Ended, run};
+pub use run::{Ended, element_count, run};
 pub use write::write;
 
 /// The JSON schema of a scene of two asperities.

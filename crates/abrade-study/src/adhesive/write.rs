@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use abrade_report::quantity_text::count;
 use abrade_report::{Cell, Regimes, atomic};
 
 use super::fit::Boundary;
@@ -130,9 +131,9 @@ fn picture(map: &Map) -> Result<Vec<u8>, StudyError> {
     }
     let names = MODES.map(|mode| mode.name());
     let caption = format!(
-        "overlap {}, {} gaps per point; a cell is cut by the shares of its runs",
+        "overlap {}, {} per point; a cell is cut by the shares of its runs",
         map.file.bodies.overlap,
-        map.file.gaps.len()
+        count(map.file.gaps.len(), "gap", "gaps")
     );
     let x = if over_strength { "shear strength sigma_j (MPa)" } else { "ratio of strengths a" };
     let regimes = Regimes {

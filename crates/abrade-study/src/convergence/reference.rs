@@ -11,7 +11,8 @@ use crate::error::StudyError;
 /// Reads the file; also gives its name in words.
 pub(crate) fn read(path: &Path) -> Result<(Quantities, String), StudyError> {
     let fault = |reason: String| StudyError::Reference { path: path.to_owned(), reason };
-    let text = std::fs::read_to_string(path).map_err(|error| fault(error.kind().to_string()))?;
+    let text =
+        std::fs::read_to_string(path).map_err(|error| fault(abrade_scene::unread(path, &error)))?;
     let value: Value = serde_json::from_str(&text).map_err(|error| fault(error.to_string()))?;
     let quantities = quantities(&value);
     if quantities == Quantities::default() {

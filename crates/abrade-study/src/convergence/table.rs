@@ -104,7 +104,7 @@ const HEAD: [(&str, usize); 12] = [
     ("total", 9),
     ("depth", 9),
     ("force", 9),
-    ("rate", 9),
+    ("wear rate", 9),
     ("restit.", 9),
     ("angle deg", 9),
     ("spin", 9),

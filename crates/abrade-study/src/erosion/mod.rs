@@ -57,6 +57,7 @@ pub fn make(
     let store = Store::new(file, beside, out);
     let mut unmade = Vec::new();
     for (at, case) in cases.iter().enumerate() {
+        progress.cases(at, cases.len());
         if store.read(case).is_some() {
             continue;
         }

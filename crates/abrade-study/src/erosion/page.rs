@@ -1,6 +1,6 @@
 //! `report.html`: what the study says, in sentences, pictures and tables.
 
-use abrade_report::quantity_text::digits;
+use abrade_report::quantity_text::{count, digits};
 use abrade_report::sheet::{Part, Sheet};
 
 use super::charts::Drawn;
@@ -28,7 +28,11 @@ impl Erosion {
         let impacts: usize = self.cases.iter().map(|result| result.impacts).sum();
         Sheet {
             title: self.file.name.clone(),
-            subtitle: format!("{impacts} impacts in {} cases", self.cases.len()),
+            subtitle: format!(
+                "{} in {}",
+                count(impacts, "impact", "impacts"),
+                count(self.cases.len(), "case", "cases")
+            ),
             parts,
         }
     }
@@ -240,9 +244,10 @@ impl Erosion {
             ),
         ];
         for result in &self.cases {
-            if let Some((count, why)) = &result.missed {
+            if let Some((missed, why)) = &result.missed {
+                let impacts = count(*missed, "impact", "impacts");
                 lines.push(format!(
-                    "{} at {} deg and {} m/s: {count} impacts without a result; the first: {why}.",
+                    "{} at {} deg and {} m/s: {impacts} without a result; the first: {why}.",
                     result.case.grain,
                     digits(result.case.angle.to_degrees()),
                     digits(result.case.speed)

@@ -1,0 +1,59 @@
+//! What lies in a results folder before a command writes into it.
+
+use super::Folder;
+
+/// Fails for a run that replaces another one in silence, and for one that is taken for none of abrade's.
+#[test]
+fn a_run_that_replaces_another_one_says_so() {
+    let folder = Folder::new("earlier");
+    let place = "runs/Oblique impact of a ball";
+    let set = ["--set", "outputs=[History(every: \"1 us\")]"];
+    let run = || folder.abrade(&[&["run", "scene.ron"], &set[..]].concat());
+    let first = run();
+    assert_eq!((first.code, first.err.as_str()), (Some(0), ""));
+    let again = run();
+    assert_eq!(again.code, Some(0));
+    let (begin, end) = ("note: replaces the run `Oblique impact of a ball` of ", " ago in ");
+    assert!(again.err.starts_with(begin), "{}", again.err);
+    assert!(again.err.ends_with(&format!("{end}{place}; --out DIR keeps both\n")), "{}", again.err);
+    // What a run leaves that was killed is no reason to ask.
+    let summary = folder.0.join(place).join("summary.json");
+    std::fs::remove_file(&summary).unwrap();
+    let history = folder.0.join(place).join("history.csv");
+    std::fs::rename(&history, history.with_extension("csv.1-2-0.partial")).unwrap();
+    for entry in std::fs::read_dir(folder.0.join(place)).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|end| end != "partial") {
+            std::fs::remove_file(path).unwrap();
+        }
+    }
+    assert_eq!((run().code, run().code), (Some(0), Some(0)));
+}
+
+/// Fails for a command that writes over files that are not abrade's, or that of another command.
+#[test]
+fn a_folder_of_something_else_is_left_alone() {
+    let folder = Folder::new("foreign");
+    folder.write("study.ron", crate::studies::EROSION);
+    let mine = folder.0.join("mine");
+    std::fs::create_dir(&mine).unwrap();
+    std::fs::write(mine.join("summary.json"), "{\"scene\": \"a theatre\"}").unwrap();
+    std::fs::write(mine.join("report.html"), "<p>a report").unwrap();
+    std::fs::write(mine.join("study.csv"), "a,b\n").unwrap();
+    for (arguments, held) in [
+        (&["run", "scene.ron"][..], "files that are no run's of abrade"),
+        (&["study", "erosion", "study.ron"], "report.html of something else"),
+        (&["sweep", "study.ron", "--merge", "mine"], "report.html of something else"),
+        (&["study", "convergence", "scene.ron"], "study.csv of something else"),
+    ] {
+        // `--merge` takes all that follows it.
+        let (command, rest) = arguments.split_at(2);
+        let said = folder.abrade(&[command, &["--out", "mine"], rest].concat());
+        assert_eq!(said.code, Some(2), "{arguments:?}: {}", said.err);
+        let told = format!(
+            "error: the output folder `mine` holds {held}: name another one with --out, or empty it\n"
+        );
+        assert_eq!(said.err, told, "{arguments:?}");
+        assert_eq!(std::fs::read_dir(&mine).unwrap().count(), 3, "{arguments:?}");
+    }
+}
