@@ -2,6 +2,7 @@
 //! against the same in lockstep, fine. Both precisions run the same tests.
 
 mod beyond;
+mod far;
 mod rig;
 mod rows;
 mod soak;

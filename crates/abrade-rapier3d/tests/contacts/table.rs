@@ -7,13 +7,13 @@ use super::rig::Case;
 use super::rows::{self, Outcome};
 
 /// A row, what the reference makes of it, and the steps at which it is known to miss.
-struct Row {
-    name: &'static str,
-    run: fn(Case) -> Outcome,
+pub struct Row {
+    pub name: &'static str,
+    pub run: fn(Case) -> Outcome,
     reference: fn(Case) -> Outcome,
 }
 
-const ROWS: [Row; 10] = [
+pub const ROWS: [Row; 10] = [
     Row {
         name: "loaded ball on soft ground",
         run: rows::loaded_ball,
