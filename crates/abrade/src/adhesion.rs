@@ -132,7 +132,7 @@ impl Glue {
     }
 
     /// Energy at the present instant [J], below zero while the body adheres.
-    pub(crate) fn energy(&self) -> f64 {
+    fn energy(&self) -> f64 {
         let nodes = self.candidates.slots.iter().zip(&self.old);
         let seen = nodes.filter(|(_, gap)| !gap.is_nan());
         seen.map(|(slot, gap)| slot.area * (gap - self.range)).sum::<f64>() * self.traction

@@ -159,7 +159,7 @@ impl Carried {
         let mut springs = Grip { force: pull.spring_force, torque: pull.spring_torque } * share;
         springs.force += self.owed[0] / dt;
         springs.torque += self.owed[1] / dt;
-        if !self.integrator.contacts.iter().any(columns) && self.integrator.glue.is_empty() {
+        if !self.integrator.contacts.iter().any(columns) && !self.integrator.adheres() {
             return springs;
         }
         let dynamics = self.integrator.dynamics;
@@ -170,7 +170,10 @@ impl Carried {
         dynamics.drift(&mut end, dt);
         let trial = self.integrator.ask(body, surfaces, &end, Course { velocity, spin, dt });
         let mut state = body.state;
-        let charge = self.integrator.charge(&trial.toll, 0.0, &mut state);
+        if self.integrator.adheres() {
+            self.integrator.apply(&self.integrator.attraction.push.scaled(0.5), &mut state);
+        }
+        let charge = self.integrator.charge(&trial.toll, [0.0; 2], &mut state);
         let drawn = self.integrator.attraction.mean(dt);
         let swept = Grip {
             force: charge.impulse / dt + drawn.force,

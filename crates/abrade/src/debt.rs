@@ -64,15 +64,17 @@ impl Integrator {
     }
 
     /// Energy that adhesion gives in a step more than its own falls by [J], of a body in `state` half-way
-    /// through its push: springs under faces take it back. Zero where a surface moves.
+    /// through its push, before what faces do: springs under faces take it back. What flow does to it
+    /// meanwhile is left out: it may be all that stops the body. Zero where a surface moves.
     pub(crate) fn given_over(&self, toll: &Toll, state: &State) -> f64 {
         if !self.adheres() || !self.has_sprung_columns() || !self.surfaces_rest() {
             return 0.0;
         }
-        let (push, springs) = (&self.attraction.push, toll.spring.scaled(0.5));
-        let velocity = state.velocity + self.dynamics.accelerate(&springs.impulse);
-        let spin = state.spin + self.dynamics.turn(&state.rotation, &springs.torque);
-        let given = push.impulse.dot(&velocity) + self.dynamics.work(&push.torque, &spin);
+        let (push, mut middle) = (&self.attraction.push, *state);
+        self.apply(&toll.spring.scaled(0.5), &mut middle);
+        let work =
+            |velocity, spin| push.impulse.dot(velocity) + self.dynamics.work(&push.torque, spin);
+        let given = work(&middle.velocity, &middle.spin);
         given + self.attraction.energy
     }
 
@@ -82,10 +84,9 @@ impl Integrator {
             + self.dynamics.work(&loads.torque, &trial.turn).abs();
     }
 
-    /// Energy that the body brought, or that somebody gave it since, what loads have exchanged with
-    /// it, and what adhesion has given it [J].
+    /// Energy that the body brought, or that somebody gave it since, and that loads have exchanged
+    /// with it [J].
     fn contact_energy(&self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
-        let drawn: f64 = self.glue.iter().flatten().map(|glue| -glue.energy()).sum();
-        self.energy_before.max(self.relative_energy(body, surfaces)) + self.supplied + drawn
+        self.energy_before.max(self.relative_energy(body, surfaces)) + self.supplied
     }
 }

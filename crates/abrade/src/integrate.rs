@@ -76,6 +76,10 @@ pub(crate) struct Integrator {
     /// Angular momentum that placing the end of the last trial ahead of the balance made [N m s].
     #[cfg_attr(feature = "state", serde(skip))]
     pub(crate) ahead: Vector3<f64>,
+    /// What columns and dashpots were foreseen to change the velocity [m/s] and spin [rad/s] by over the
+    /// first half of the last trial.
+    #[cfg_attr(feature = "state", serde(skip))]
+    pub(crate) foreseen: [Vector3<f64>; 2],
     /// True when a surface damps the body; what its dashpots do over the last trial, and the
     /// springs that they stand beside.
     pub(crate) is_damped: bool,
@@ -85,12 +89,14 @@ pub(crate) struct Integrator {
     pub(crate) dashpots: Dashpots,
     /// Where the last search for a load ended, of a pressed body.
     pub(crate) balance: Option<Balance>,
-    /// Energy that projections with springs were short of [J].
+    /// Energy that projections with springs were short of [J], or adhesion gave while none was
+    /// touched.
     pub(crate) short: f64,
     /// Work of loads since the first touch, whatever its sign [J].
     pub(crate) supplied: f64,
     pub(crate) ledger: Ledger,
-    /// Energies that springs booked in the last trial, if they are kept.
+    /// Energies, if they are kept: what springs booked in the last trial, and once it is settled what
+    /// the step has cost.
     #[cfg_attr(feature = "state", serde(skip))]
     pub(crate) booked: Ledger,
 }
@@ -159,6 +165,7 @@ impl Integrator {
             rides: Vec::new(),
             answers: Vec::new(),
             ahead: Vector3::zeros(),
+            foreseen: [Vector3::zeros(); 2],
             balance: None,
             short: 0.0,
             supplied: 0.0,

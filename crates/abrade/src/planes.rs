@@ -162,8 +162,8 @@ pub(crate) fn crossed_at(
     })
 }
 
-/// Distance [m] of the line from `depth` [m] below `x` from the farthest of these planes from which it leads
-/// away.
+/// Distance [m] of the line from `depth` [m] below `x` from the farthest of these planes from
+/// which it leads away.
 #[inline]
 pub(crate) fn clearance(blocks: Blocks<'_>, x: &Point3<f64>, line: Line, depth: f64) -> f64 {
     let (x, depth) = (splat(&x.coords), f64x4::splat(depth));

@@ -65,9 +65,16 @@ pub(crate) fn pay(Change { a, b }: Change, cost: f64) -> Payment {
     Payment { scale: brake / (2.0 * a), share: brake * brake / (4.0 * a * cost) }
 }
 
+/// As [`balance`], for springs that take back what loads gave `ahead` [J] as well, as far as they
+/// can: the rest of that is nobody's debt.
+pub(crate) fn balance_ahead(change: Change, cost: f64, ahead: f64) -> (f64, f64) {
+    let (scale, short) = balance(change, cost + ahead);
+    (scale, short - ahead.clamp(short.min(0.0), short.max(0.0)))
+}
+
 /// Scale of the springs' impulse that brings the kinetic energy nearest to losing `cost` [J], and
 /// by how much it falls short of that [J].
-pub(crate) fn balance(Change { a, b }: Change, cost: f64) -> (f64, f64) {
+fn balance(Change { a, b }: Change, cost: f64) -> (f64, f64) {
     let short = |l: f64| (a * l + b) * l + cost;
     let [low, high] = SPRING_SCALES;
     let discriminant = b * b - 4.0 * a * cost;

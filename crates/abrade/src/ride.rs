@@ -58,7 +58,7 @@ pub(crate) struct Answer {
 }
 
 /// What one contact does to the body, about its centre of mass: its springs at the present
-/// instant, its columns in the mean over the last step.
+/// instant; columns, dashpots and adhesion in the mean over the last step.
 #[derive(Clone, Copy, Debug, Default)]
 #[cfg_attr(feature = "state", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Hand {

@@ -1,4 +1,4 @@
-//! The settlement of a trial: second kick, projection, nodes.
+//! The settlement of a trial: second kick, what acts over the step, projection, nodes.
 
 use nalgebra::Vector3;
 
@@ -9,7 +9,7 @@ use crate::debt::unpaid;
 use crate::encounter::{Loads, Placed};
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
-use crate::projection::{Payment, balance, pay};
+use crate::projection::{Payment, balance_ahead, pay};
 #[cfg(feature = "state")]
 use crate::state::finite;
 use crate::toll::Toll;
@@ -73,8 +73,14 @@ impl Integrator {
 
     /// Takes what columns cost from a body in `state` and the carriers, closed by the energy
     /// projection. A guided body is paid for by what leads it: nothing is scaled.
-    /// A `gain` [J] of the energy is taken with the wear, or with what springs take.
-    pub(crate) fn charge(&mut self, toll: &Toll, gain: f64, state: &mut State) -> Charge {
+    /// A `gain` [J] of the energy is taken with the wear, or with what springs take, and what loads
+    /// gave `ahead` [J] by the springs.
+    pub(crate) fn charge(
+        &mut self,
+        toll: &Toll,
+        [gain, ahead]: [f64; 2],
+        state: &mut State,
+    ) -> Charge {
         let has_columns = self.contacts.iter().any(|c| matches!(c, Contact::Columns(_)));
         if !has_columns && gain == 0.0 && self.short == 0.0 {
             return Charge { share: 1.0, ..Charge::default() };
@@ -88,7 +94,7 @@ impl Integrator {
             true => (1.0, 0.0),
             false => {
                 let change = self.change(&toll.spring, state, |answer| &answer.sprung);
-                balance(change, cost)
+                balance_ahead(change, cost, ahead)
             }
         };
         let sprung = toll.spring.scaled(scale);
@@ -112,10 +118,16 @@ impl Integrator {
         }
     }
 
-    /// True where faces without springs have the last word in a step: a body that they block ends it at
-    /// rest.
-    pub(crate) fn ends_blocked(&self) -> bool {
-        self.contacts.iter().any(Contact::is_rigid)
+    /// Energy that the kicks of `loads` have given over a trial more than their work on its way [J]:
+    /// what columns do places the end of the step, ahead of the balance in which they do it.
+    pub(crate) fn ahead_of_loads(&self, body: &Body, loads: &Loads, dt: f64) -> f64 {
+        if !self.has_sprung_columns() {
+            return 0.0;
+        }
+        let [velocity, spin] = self.foreseen;
+        let work =
+            loads.pull(&body.inertia).dot(&velocity) + self.dynamics.work(&loads.torque, &spin);
+        -work * dt
     }
 
     /// Half of what dashpots and adhesion did over the last trial.
@@ -130,8 +142,7 @@ impl Integrator {
         }
     }
 
-    /// Commits a trial: second kick, projection, nodes. What it has cost is booked for the step, if
-    /// energies are kept.
+    /// Commits a trial. What it has cost is booked for the step, if energies are kept.
     pub(crate) fn settle(
         &mut self,
         body: &Body,
@@ -147,18 +158,18 @@ impl Integrator {
             this.kick_carriers(surfaces, state, 0.5 * dt);
         };
         self.begin_hands();
-        // What acts over the step has its place between the kicks, in halves around the faces: it works
-        // at the mean velocity of the step.
-        let ends_blocked = self.ends_blocked();
-        if ends_blocked {
+        // Adhesion and dashpots have their place between the kicks, where they work at the mean
+        // velocity of the step: in halves around what faces do, which come after both kicks.
+        let by_faces = self.contacts.iter().any(|c| matches!(c, Contact::Columns(_)));
+        if by_faces {
             kick(self, &mut state);
         }
-        let gained = self.give_back();
+        let gained = [self.give_back(), self.ahead_of_loads(body, loads, dt)];
         self.apply_halves(&mut state);
         let Charge { mut impulse, mut torque, flow_friction, share, short, forgiven } =
             self.charge(toll, gained, &mut state);
         self.apply_halves(&mut state);
-        if !ends_blocked {
+        if !by_faces {
             kick(self, &mut state);
         }
         if self.is_damped {

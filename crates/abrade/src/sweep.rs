@@ -4,6 +4,7 @@
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 
 use crate::body::State;
+use crate::hull::Hull;
 use crate::planes::{self, Block, Blocks, Line};
 use crate::shape::{Piece, Shape};
 
@@ -100,8 +101,10 @@ impl Swept {
     /// Turns the planes of all hulls to where they are at both ends of a step.
     fn face(&mut self, shape: &Shape, from: &State, to: &State) {
         let pose = |state: &State| Some((state.position, state.rotation));
+        let is_another =
+            self.ends.len() != hulls(shape).map(|hull| hull.planes().len()).sum::<usize>();
         // Mostly a step begins where the last one ended.
-        match self.placed == pose(from) {
+        match self.placed == pose(from) && !is_another {
             true => std::mem::swap(&mut self.starts, &mut self.ends),
             false => turn(&mut self.starts, shape, from),
         }
@@ -178,8 +181,8 @@ impl Swept {
             || self.balls.iter().any(|ball| ball.meets(x, n, margin, reach))
     }
 
-    /// A distance [m] that every point of the body may move, at least, before it meets the line from `depth`
-    /// [m] below `x` down along -n; below zero where it may have met it.
+    /// A distance [m] that every point of the body may move, at least, before it meets the line
+    /// from `depth` [m] below `x` down along -n; below zero where it may have met it.
     #[inline]
     pub(crate) fn clearance(&self, x: &Point3<f64>, n: &Vector3<f64>, depth: f64) -> f64 {
         let line = Line::new(self.level, n);
@@ -213,11 +216,17 @@ impl Swept {
     }
 }
 
+fn hulls(shape: &Shape) -> impl Iterator<Item = &Hull> {
+    shape.pieces().iter().filter_map(|piece| match piece {
+        Piece::Hull(hull) => Some(hull),
+        Piece::Ball(_) => None,
+    })
+}
+
 /// The planes of all hulls of `shape` at `state`.
 fn turn(planes: &mut Vec<Facing>, shape: &Shape, state: &State) {
     planes.clear();
-    for piece in shape.pieces() {
-        let Piece::Hull(hull) = piece else { continue };
+    for hull in hulls(shape) {
         planes.extend(hull.planes().iter().map(|plane| {
             let normal = state.rotation * plane.normal;
             (normal, plane.offset + normal.dot(&state.position.coords))
@@ -298,7 +307,7 @@ impl MovedBall {
 mod tests {
     use super::*;
     use crate::candidates::travel;
-    use crate::hull::{Hull, Polyhedron};
+    use crate::hull::Polyhedron;
     use crate::shape::Ball;
 
     /// Numbers in [-1, 1] that follow no pattern.
@@ -333,7 +342,10 @@ mod tests {
                 at.rotation = UnitQuaternion::from_scaled_axis(numbers.vector() * 3.0);
                 let x = Point3::from(numbers.vector());
                 swept.place(&shape, &at, &at, None);
-                let way = swept.clearance(&x, &n, 0.0);
+                let depth = 0.5 * numbers.next();
+                let x = x + n * depth;
+                let way = swept.clearance(&x, &n, depth);
+                let x = x - n * depth;
                 free += usize::from(!swept.meets(&x, &n, 0.0, f64::INFINITY));
                 clear += usize::from(way > 0.0);
                 for _ in 0..if way > 0.0 { 20 } else { 0 } {

@@ -13,7 +13,7 @@ use crate::inner_loop::Reaction;
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
 use crate::node_law::Motion;
-use crate::projection::balance;
+use crate::projection::balance_ahead;
 use crate::ride::Ride;
 use crate::rotation::Dynamics;
 use crate::toll::{Push, Toll};
@@ -129,6 +129,7 @@ impl Integrator {
         let swept = self.swept_prediction(body, surfaces, half);
         state.velocity += swept.velocity;
         state.spin += swept.spin;
+        self.foreseen = [swept.velocity, swept.spin];
         let adheres = self.adheres();
         if adheres {
             let drawn = self.pull.drawn * half;
@@ -289,14 +290,13 @@ impl Integrator {
         }
         let (springs, toll) = (&trial.springs, &trial.toll);
         let mut state = trial.state;
-        if self.ends_blocked() {
-            self.kick(body, loads, &springs.force, &springs.torque, 0.5 * trial.dt, &mut state);
-        }
+        self.kick(body, loads, &springs.force, &springs.torque, 0.5 * trial.dt, &mut state);
         if self.adheres() {
             self.apply(&self.attraction.push.scaled(0.5), &mut state);
         }
         let cost = self.owed(toll, unpaid(toll.lost, self.short)) + self.given_over(toll, &state);
-        balance(self.change(&toll.spring, &state, |answer| &answer.sprung), cost).1
+        let ahead = self.ahead_of_loads(body, loads, trial.dt);
+        balance_ahead(self.change(&toll.spring, &state, |answer| &answer.sprung), cost, ahead).1
     }
 
     pub(crate) fn has_sprung_columns(&self) -> bool {
