@@ -28,7 +28,7 @@ PARTS = {
     "hardness map": ([], r"hardness_map|slot\.factor|hardness \* factor"),
     "observer": ([], r"observe|kept_ledger"),
     "watch of sunk nodes": (["sunk.rs"], r"note_sunk"),
-    "moving surface": (["carrier.rs", "ride.rs"], r"surfaces_rest|\brides?\b|mounts|answers|carrier|motion_below|give_back"),
+    "moving surface": (["carrier.rs", "ride.rs"], r"surfaces_rest|\bmoves\b|\brides?\b|mounts|answers|carrier|motion_below|give_back"),
     "led body": ([], r"is_immovable|is_guided|led_limit|\bguide\b"),
 }
 # Lines of other files that have such a word, and are needed without the part: signatures, structures

@@ -43,7 +43,7 @@ impl Integrator {
         let mut state = end.state;
         state.velocity /= 1.0 + dt * loads.linear_damping;
         state.spin /= 1.0 + dt * loads.angular_damping;
-        let damped = self.arrive(surfaces, dt);
+        let damped = if self.surfaces_rest() { 0.0 } else { self.arrive(surfaces, dt) };
         if let Some(carried) = carried {
             let spent = self.booked;
             let energy = |state: &State| body.inertia.kinetic_energy(state);

@@ -283,16 +283,16 @@ impl Columns {
         motion: &Motion,
     ) {
         self.swept.place(shape, start, end, surface.level());
+        let mut normal = Vector3::zeros();
         let mut step = Step {
             swept: &self.swept,
             motion,
             middle: nalgebra::center(&start.position, &end.position),
             reach: (end.position - start.position).norm()
                 + motion.spin.norm() * motion.dt * shape.bounding_radius(),
-            heading: Vector3::zeros(),
+            heading: normal,
             own: f64::INFINITY,
         };
-        let mut normal = Vector3::zeros();
         self.toll = Toll::default();
         self.middle = step.middle;
         self.cuts.clear();

@@ -127,9 +127,10 @@ impl Integrator {
 
     /// Kinetic energy of a body over the material that it leans on most [J].
     pub(crate) fn relative_energy(&self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
-        let Some([below, _]) = self.motion_below(body, surfaces) else {
+        if self.surfaces_rest() {
             return body.inertia.kinetic_energy(&body.state);
-        };
+        }
+        let [below, _] = self.motion_below(body, surfaces);
         let velocity = body.state.velocity - below;
         body.inertia.kinetic_energy(&State { velocity, ..body.state })
     }

@@ -269,7 +269,8 @@ impl Integrator {
         let net = self.pull.force + loads.pull(&body.inertia);
         let mut approach = -body.state.velocity.dot(&direction);
         let mut slowing = net.dot(&direction) * self.dynamics.inverse_mass;
-        if let Some([velocity, acceleration]) = self.motion_below(body, surfaces) {
+        if !self.surfaces_rest() {
+            let [velocity, acceleration] = self.motion_below(body, surfaces);
             approach += velocity.dot(&direction);
             slowing -= acceleration.dot(&direction);
         }

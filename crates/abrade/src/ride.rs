@@ -250,16 +250,13 @@ impl Integrator {
         }
     }
 
-    /// Begins to sum up the impulses of a step.
+    /// Begins to sum up what is done to the carriers in a step.
     pub(crate) fn begin_hands(&mut self) {
         self.hands.iter_mut().for_each(|hand| hand.swept = Grip::default());
     }
 
     /// The second half of the carriers' kick by springs that hold the body at `state`.
     pub(crate) fn kick_carriers(&mut self, surfaces: &[Placed<'_>], state: &State, half: f64) {
-        if self.surfaces_rest() {
-            return;
-        }
         let carriers = surfaces.iter().zip(&mut self.rides).zip(&self.answers);
         for ((placed, ride), answer) in carriers {
             let (Some(carrier), Some(ride)) = (&placed.carrier, ride) else { continue };
@@ -272,9 +269,6 @@ impl Integrator {
     /// Takes the angular momentum that placing the end of the step made from the carrier that the
     /// columns held most: their impulse acted half-way. Returns the energy that it gained [J].
     pub(crate) fn give_back(&mut self) -> f64 {
-        if self.surfaces_rest() {
-            return 0.0;
-        }
         let ahead = self.ahead;
         let strength = |answer: &Answer| {
             let Answer { flow, sprung, damping, drawn, .. } = answer;
@@ -302,9 +296,6 @@ impl Integrator {
         end: &State,
         dt: f64,
     ) -> f64 {
-        if self.surfaces_rest() {
-            return 0.0;
-        }
         let mut work = 0.0;
         let carriers = surfaces.iter().zip(&self.rides).zip(&self.answers);
         for (((placed, ride), answer), hand) in carriers.zip(&mut self.hands) {
@@ -328,26 +319,19 @@ impl Integrator {
         work
     }
 
-    /// Velocity [m/s] and acceleration [m/s2] of the material that the body leans on most; None
+    /// Velocity [m/s] and acceleration [m/s2] of the material that the body leans on most; zeros
     /// at rest.
-    pub(crate) fn motion_below(
-        &self,
-        body: &Body,
-        surfaces: &[Placed<'_>],
-    ) -> Option<[Vector3<f64>; 2]> {
-        if self.surfaces_rest() {
-            return None;
-        }
+    pub(crate) fn motion_below(&self, body: &Body, surfaces: &[Placed<'_>]) -> [Vector3<f64>; 2] {
         let hands = self.hands.iter().zip(&self.mounts).zip(surfaces);
         let moving = hands.filter_map(|((hand, mount), placed)| {
             Some((hand.total(), mount.as_ref()?, placed.carrier.as_ref()?))
         });
         let most = moving.max_by(|a, b| a.0.force.norm().total_cmp(&b.0.force.norm()));
-        let (grip, dynamics, carrier) = most?;
+        let Some((grip, dynamics, carrier)) = most else { return Default::default() };
         let moved: Vector3<f64> = self.hands.iter().map(|hand| hand.total().force).sum();
         if grip.force.norm() < (self.pull.force - moved).norm() {
             // It leans more on surfaces at rest.
-            return None;
+            return Default::default();
         }
         let state = &carrier.state;
         let arm = body.state.position - state.position;
@@ -358,7 +342,7 @@ impl Integrator {
             acceleration += dynamics.accelerate(&(back.force + force)) + gravity;
             acceleration += dynamics.turn(&state.rotation, &(back.torque + torque)).cross(&arm);
         }
-        Some([velocity_at(state, &body.state), acceleration])
+        [velocity_at(state, &body.state), acceleration]
     }
 
     /// Highest angular frequency [1/s] of the body and the carriers on the touching springs.
@@ -391,9 +375,6 @@ impl Integrator {
 
     /// Makes the last trial the state of the carriers; returns what their damping took [J].
     pub(crate) fn arrive(&mut self, surfaces: &mut [Placed<'_>], dt: f64) -> f64 {
-        if self.surfaces_rest() {
-            return 0.0;
-        }
         let mut damped = 0.0;
         for (placed, ride) in surfaces.iter_mut().zip(&self.rides) {
             let (Some(carrier), Some(ride)) = (&mut placed.carrier, ride) else { continue };

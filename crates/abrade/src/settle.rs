@@ -153,18 +153,24 @@ impl Integrator {
     ) -> Settled {
         let mut state = trial.state;
         let (springs, toll) = (&trial.springs, &trial.toll);
+        let moves = !self.surfaces_rest();
+        if moves {
+            self.begin_hands();
+        }
         let kick = |this: &mut Self, state: &mut State| {
             this.kick(body, loads, &springs.force, &springs.torque, 0.5 * dt, state);
-            this.kick_carriers(surfaces, state, 0.5 * dt);
+            if moves {
+                this.kick_carriers(surfaces, state, 0.5 * dt);
+            }
         };
-        self.begin_hands();
         // Adhesion and dashpots have their place between the kicks, where they work at the mean
         // velocity of the step: in halves around what faces do, which come after both kicks.
         let by_faces = self.contacts.iter().any(|c| matches!(c, Contact::Columns(_)));
         if by_faces {
             kick(self, &mut state);
         }
-        let gained = [self.give_back(), self.ahead_of_loads(body, loads, dt)];
+        let given_back = if moves { self.give_back() } else { 0.0 };
+        let gained = [given_back, self.ahead_of_loads(body, loads, dt)];
         self.apply_halves(&mut state);
         let Charge { mut impulse, mut torque, flow_friction, share, short, forgiven } =
             self.charge(toll, gained, &mut state);
@@ -193,7 +199,7 @@ impl Integrator {
             impulse += self.attraction.push.impulse;
             torque += self.attraction.push.torque;
         }
-        let external_work = self.hold_on(body, surfaces, &state, dt);
+        let external_work = if moves { self.hold_on(body, surfaces, &state, dt) } else { 0.0 };
         if self.keeps_ledger() {
             self.booked = Ledger {
                 elastic,
