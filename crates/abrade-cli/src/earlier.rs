@@ -8,6 +8,7 @@ use anyhow::anyhow;
 use serde_json::Value;
 
 use crate::failure::Failure;
+use crate::say;
 
 /// Endings of what a run leaves that was killed.
 const BROKEN: [&str; 3] = [".partial", ".vtp", ".pvd"];
@@ -77,5 +78,6 @@ fn tell(what: &str, path: &Path, folder: &Path) {
     let age =
         path.metadata().and_then(|file| file.modified()).ok().and_then(|at| at.elapsed().ok());
     let age = age.map_or(String::new(), |age| format!(" of {} ago", time(age.as_secs_f64())));
-    eprintln!("note: replaces {what}{age} in {}; --out DIR keeps both", folder.display());
+    let place = folder.display();
+    say::aside(&format!("note: replaces {what}{age} in {place}; --out DIR keeps both"));
 }

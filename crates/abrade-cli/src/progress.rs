@@ -8,6 +8,8 @@ use abrade_report::quantity_text::{count, time};
 use abrade_scene::Progress;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::say;
+
 /// Parts of a run that the bar can show.
 const PARTS: u64 = 1000;
 /// Time between two lines in a pipe.
@@ -67,7 +69,7 @@ impl Progress for Bar<'_> {
             Shown::Bar(bar) => show(bar, share, doing),
             Shown::Lines { began, lines } => {
                 if let Some(line) = lines.next(began.elapsed(), share, &doing) {
-                    eprintln!("{line}");
+                    say::aside(&line);
                 }
             }
         }

@@ -43,7 +43,7 @@ pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
     );
     say::say(&text)?;
     if let Some(note) = size_note(html.len()) {
-        eprintln!("{note}");
+        say::aside(&note);
     }
     Ok(())
 }

@@ -57,3 +57,17 @@ fn a_folder_of_something_else_is_left_alone() {
         assert_eq!(std::fs::read_dir(&mine).unwrap().count(), 3, "{arguments:?}");
     }
 }
+
+/// Fails for a run that ends where nobody reads what it tells beside its results.
+#[test]
+fn work_goes_on_where_nobody_reads_the_error_stream() {
+    use std::process::{Command, Stdio};
+
+    let folder = Folder::new("unread_stream");
+    assert_eq!(folder.abrade(&["run", "scene.ron"]).code, Some(0));
+    let mut run = Command::new(env!("CARGO_BIN_EXE_abrade"));
+    run.current_dir(&folder.0).args(["run", "scene.ron"]);
+    let mut run = run.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(run.stderr.take());
+    assert_eq!(run.wait().unwrap().code(), Some(0));
+}
