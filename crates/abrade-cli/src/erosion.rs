@@ -49,8 +49,12 @@ impl Opened {
         made.map_err(failure)
     }
 
-    /// Writes the tables of the cases that are there, and shows them; says why the `unmade` are missing.
+    /// Writes the tables of the cases that are there, if any is, and shows them; says why the `unmade` are missing.
     pub(crate) fn tell(&self, unmade: &[Unmade]) -> Result<(), Failure> {
+        let all = self.file.cases();
+        if !all.iter().any(|case| self.has(case)) {
+            return Err(self.lacks(all.len(), unmade));
+        }
         let result = erosion::result(&self.file, &self.beside, &self.out).map_err(failure)?;
         output_folder::make(&self.out)?;
         erosion::write(&result, &self.beside, &self.out).map_err(failure)?;
@@ -63,6 +67,11 @@ impl Opened {
             0 => Ok(()),
             missing => Err(self.lacks(missing, unmade)),
         }
+    }
+
+    /// True where `case` is there.
+    pub(crate) fn has(&self, case: &Case) -> bool {
+        erosion::is_made(&self.file, &self.beside, case, &self.out)
     }
 
     /// That `missing` cases are, and why the `unmade` are.

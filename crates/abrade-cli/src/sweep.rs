@@ -51,9 +51,3 @@ fn list(opened: &Opened) -> Result<(), Failure> {
     }
     say::say(&text)
 }
-
-impl Opened {
-    fn has(&self, case: &erosion::Case) -> bool {
-        erosion::is_made(&self.file, &self.beside, case, &self.out)
-    }
-}

@@ -141,6 +141,8 @@ fn a_map_is_made_whole_or_in_parts_on_any_number_of_threads() {
     let said = folder.abrade(&["adhesive", "map", "map.ron", "--jobs", "2", "--out", "whole"]);
     assert_eq!(said.code, Some(0), "{}", said.err);
     assert!(said.out.contains("2 slipping"), "{}", said.out);
+    let early = folder.abrade(&["adhesive", "map", "map.ron", "--out", "part0", "--merge"]);
+    assert_eq!(early.code, Some(1), "{}", early.out);
     for part in ["0/2", "1/2"] {
         let out = format!("part{}", &part[..1]);
         let arguments =
