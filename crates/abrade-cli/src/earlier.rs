@@ -4,22 +4,20 @@
 use std::path::Path;
 
 use abrade_report::quantity_text::time;
+use abrade_report::run_files;
 use anyhow::anyhow;
 use serde_json::Value;
 
 use crate::failure::Failure;
 use crate::say;
 
-/// Endings of what a run leaves that was killed.
-const BROKEN: [&str; 3] = [".partial", ".vtp", ".pvd"];
-
 /// Makes sure that a run may write into `folder`; says so if it replaces another one.
 pub(crate) fn make_way_for_run(folder: &Path) -> Result<(), Failure> {
-    let names = names(folder);
     let summary = folder.join("summary.json");
     match run_name(&summary) {
         Some(name) => tell(&format!("the run `{name}`"), &summary, folder),
-        None if names.iter().all(|name| BROKEN.iter().any(|end| name.ends_with(end))) => {}
+        // Of a run that was broken off there is nothing to tell.
+        None if run_files::is_of_run(folder) || is_empty(folder) => {}
         None => return Err(foreign(folder, "files that are no run's of abrade")),
     }
     Ok(())
@@ -44,11 +42,10 @@ pub(crate) fn make_way_for_cases(folder: &Path, tables: &[&str]) -> Result<(), F
     }
 }
 
-/// Names in `folder`, but for hidden ones; none where there is no folder.
-fn names(folder: &Path) -> Vec<String> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
-    names.filter(|name| !name.starts_with('.')).collect()
+/// True where there is no `folder`, or nothing in it but hidden files.
+fn is_empty(folder: &Path) -> bool {
+    let mut entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.all(|entry| entry.file_name().to_string_lossy().starts_with('.'))
 }
 
 /// What the run is called whose summary lies at `path`, if that is one.
