@@ -108,6 +108,20 @@ study.ron: two grains: erosion study, 2 cases
     assert!(!folder.0.join("runs/brittle/summary.json").exists());
 }
 
+/// Fails for a file of names that several kinds have that is not taken for the one by which it is sound, and for
+/// one that is read twice.
+#[cfg(unix)]
+#[test]
+fn a_file_that_could_be_of_two_kinds_is_read_once_and_of_the_sound_one() {
+    let folder = Folder::new("adhesive_tie");
+    folder.write("tied.ron", "(version: 1, name: \"x\", bodies: (gap: 1.0))");
+    let check = format!("cat tied.ron | '{}' check /dev/stdin", env!("CARGO_BIN_EXE_abrade"));
+    let mut shell = std::process::Command::new("sh");
+    let said = shell.current_dir(&folder.0).args(["-c", &check]).output().unwrap();
+    let (out, err) = (String::from_utf8_lossy(&said.stdout), String::from_utf8_lossy(&said.stderr));
+    assert!(out.starts_with("/dev/stdin: x: two asperities, "), "{out}{err}");
+}
+
 /// Fails for a file of another kind that is answered with the words that are strange here, and for a fault in
 /// an argument that is taken for one of the file.
 #[test]
