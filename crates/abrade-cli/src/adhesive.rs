@@ -39,6 +39,8 @@ pub(crate) fn run(arguments: &AdhesiveRunArguments) -> Result<(), Failure> {
     }
 }
 
+/// End of the file of a case.
+const CASE: &str = ".json";
 /// Files of a map beside those of its cases.
 const TABLES: [&str; 4] = ["cases.csv", "points.csv", "boundary.csv", "map.png"];
 
@@ -59,7 +61,7 @@ pub(crate) fn map(
         return opened.list();
     }
     if let Some(folders) = &part.merge {
-        earlier::make_way_for_cases(&opened.out, &TABLES)?;
+        earlier::make_way_for_cases(&opened.out, CASE, &TABLES)?;
         for folder in folders {
             adhesive::gather(&opened.file, folder, &opened.out).map_err(failure)?;
         }
@@ -75,7 +77,7 @@ pub(crate) fn map(
 impl Opened {
     fn make(&self, part: &PartArguments) -> Result<(), Failure> {
         let cases = part.choose(self.file.cases(), |case| case.number)?;
-        earlier::make_way_for_cases(&self.out, &TABLES)?;
+        earlier::make_way_for_cases(&self.out, CASE, &TABLES)?;
         output_folder::make(&self.out)?;
         let stop = interrupt::flag();
         let mut bar = Bar::of_cases(&stop);

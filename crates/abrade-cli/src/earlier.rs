@@ -34,9 +34,12 @@ pub(crate) fn make_way_for_convergence(folder: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Makes sure that a study that keeps its cases in `folder` may write `tables` there. One of its own goes on.
-pub(crate) fn make_way_for_cases(folder: &Path, tables: &[&str]) -> Result<(), Failure> {
-    match folder.join("cases").is_dir() {
+/// Makes sure that a study that keeps its cases in `folder`, each in a file of its number and `end`, may write
+/// `tables` there. One of its own goes on.
+pub(crate) fn make_way_for_cases(folder: &Path, end: &str, tables: &[&str]) -> Result<(), Failure> {
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|c| c.is_ascii_digit());
+    let cases = folder.join("cases");
+    match names(&cases).any(|name| name.strip_suffix(end).is_some_and(is_number)) {
         true => Ok(()),
         false => refuse_any(folder, tables),
     }
@@ -44,8 +47,13 @@ pub(crate) fn make_way_for_cases(folder: &Path, tables: &[&str]) -> Result<(), F
 
 /// True where there is no `folder`, or nothing in it but hidden files.
 fn is_empty(folder: &Path) -> bool {
-    let mut entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    entries.all(|entry| entry.file_name().to_string_lossy().starts_with('.'))
+    names(folder).all(|name| name.starts_with('.'))
+}
+
+/// Names in `folder`; none where there is none.
+fn names(folder: &Path) -> impl Iterator<Item = String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.map(|entry| entry.file_name().to_string_lossy().into_owned())
 }
 
 /// What the run is called whose summary lies at `path`, if that is one.

@@ -11,7 +11,17 @@ use crate::study::failure;
 use crate::{earlier, interrupt, kind, output_folder, say};
 
 /// Files of a study beside those of its cases.
-pub(crate) const TABLES: [&str; 3] = ["report.html", "cases.csv", "grains.csv"];
+const TABLES: [&str; 9] = [
+    "report.html",
+    "cases.csv",
+    "cases.jsonl",
+    "grains.csv",
+    "wear.png",
+    "ratio.png",
+    "debris.png",
+    "speed.png",
+    "craters.png",
+];
 
 /// A study, and where its files and its results lie.
 pub(crate) struct Opened {
@@ -38,9 +48,14 @@ pub(crate) fn open(arguments: &FileArguments) -> Result<Opened, Failure> {
 }
 
 impl Opened {
+    /// Makes sure that the study may write into its folder.
+    pub(crate) fn make_way(&self) -> Result<(), Failure> {
+        earlier::make_way_for_cases(&self.out, ".jsonl", &TABLES)
+    }
+
     /// Makes those of `cases` that are not there; returns those that cannot be made.
     pub(crate) fn make(&self, cases: &[Case]) -> Result<Vec<Unmade>, Failure> {
-        earlier::make_way_for_cases(&self.out, &TABLES)?;
+        self.make_way()?;
         output_folder::make(&self.out)?;
         let stop = interrupt::flag();
         let mut bar = Bar::of_cases(&stop);

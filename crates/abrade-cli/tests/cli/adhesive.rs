@@ -8,7 +8,7 @@ const SCENE: &str = r#"(version: 1, name: "brittle",
   solid: (strength_ratio: 1.7, adhesion: "0 MPa"), bodies: (travel: "60 um"), frames: 2, rows: 5)"#;
 
 /// Two points of one gap and one of them from another, cut short.
-const MAP: &str = r#"(version: 1, name: "small map", bodies: (travel: "40 um"),
+pub(crate) const MAP: &str = r#"(version: 1, name: "small map", bodies: (travel: "40 um"),
   strength_ratios: [1.0, 1.7], adhesion_ratios: [0.4, 1.6], gaps: [1.2, 1.5])"#;
 
 /// Fails for a run without one of its files, a summary that is not the run's, or half a file left over.

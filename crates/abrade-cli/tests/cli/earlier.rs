@@ -59,16 +59,26 @@ fn nothing_of_the_run_before_is_left_and_all_else_is() {
 fn a_folder_of_something_else_is_left_alone() {
     let folder = Folder::new("foreign");
     folder.write("study.ron", crate::studies::EROSION);
+    folder.write("map.ron", crate::adhesive::MAP);
     let mine = folder.0.join("mine");
     std::fs::create_dir(&mine).unwrap();
     std::fs::write(mine.join("summary.json"), "{\"scene\": \"a theatre\"}").unwrap();
     std::fs::write(mine.join("report.html"), "<p>a report").unwrap();
     std::fs::write(mine.join("study.csv"), "a,b\n").unwrap();
+    std::fs::write(mine.join("map.png"), "a street").unwrap();
+    std::fs::create_dir(mine.join("cases")).unwrap();
+    std::fs::write(mine.join("cases/1.txt"), "a lawsuit").unwrap();
+    let held_by = || {
+        let places = [mine.clone(), mine.join("cases")];
+        places.map(|place| std::fs::read_dir(place).unwrap().count())
+    };
+    let before = held_by();
     for (arguments, held) in [
         (&["run", "scene.ron"][..], "files that are no run's of abrade"),
         (&["study", "erosion", "study.ron"], "report.html of something else"),
         (&["sweep", "study.ron", "--merge", "mine"], "report.html of something else"),
         (&["study", "convergence", "scene.ron"], "study.csv of something else"),
+        (&["adhesive", "map", "map.ron"], "map.png of something else"),
     ] {
         // `--merge` takes all that follows it.
         let (command, rest) = arguments.split_at(2);
@@ -78,7 +88,7 @@ fn a_folder_of_something_else_is_left_alone() {
             "error: the output folder `mine` holds {held}: name another one with --out, or empty it\n"
         );
         assert_eq!(said.err, told, "{arguments:?}");
-        assert_eq!(std::fs::read_dir(&mine).unwrap().count(), 3, "{arguments:?}");
+        assert_eq!(held_by(), before, "{arguments:?}");
     }
 }
 
