@@ -6,8 +6,8 @@
 #
 # Shards count from 0: an array of N tasks is --array=0-<N - 1>, in one piece.
 #
-# A task that is killed loses the case that it was at and nothing else: submit the array again, and it
-# makes what is missing. `abrade` must be in the PATH of the nodes, or ABRADE say where it is.
+# A task that is killed loses the last seconds of the case that it was at and nothing else: submit the
+# array again, and it makes what is missing. `abrade` must be in the PATH of the nodes, or ABRADE say where it is.
 #SBATCH --job-name=abrade
 #SBATCH --cpus-per-task=1
 #SBATCH --requeue

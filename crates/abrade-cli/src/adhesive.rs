@@ -39,6 +39,8 @@ pub(crate) fn run(arguments: &AdhesiveRunArguments) -> Result<(), Failure> {
     }
 }
 
+/// End of the file of a case.
+const CASE: &str = ".json";
 /// Files of a map beside those of its cases.
 const TABLES: [&str; 4] = ["cases.csv", "points.csv", "boundary.csv", "map.png"];
 
@@ -59,7 +61,7 @@ pub(crate) fn map(
         return opened.list();
     }
     if let Some(folders) = &part.merge {
-        earlier::make_way_for_cases(&opened.out, &TABLES)?;
+        earlier::make_way_for_cases(&opened.out, CASE, &TABLES)?;
         for folder in folders {
             adhesive::gather(&opened.file, folder, &opened.out).map_err(failure)?;
         }
@@ -75,7 +77,7 @@ pub(crate) fn map(
 impl Opened {
     fn make(&self, part: &PartArguments) -> Result<(), Failure> {
         let cases = part.choose(self.file.cases(), |case| case.number)?;
-        earlier::make_way_for_cases(&self.out, &TABLES)?;
+        earlier::make_way_for_cases(&self.out, CASE, &TABLES)?;
         output_folder::make(&self.out)?;
         let stop = interrupt::flag();
         let mut bar = Bar::of_cases(&stop);
@@ -87,12 +89,11 @@ impl Opened {
     fn list(&self) -> Result<(), Failure> {
         let mut text = String::new();
         for case in self.file.cases() {
-            let is_there = adhesive::is_made(&self.file, &case, &self.out);
             let _ = writeln!(
                 text,
                 "{:>5}  {:<5}  a {:<5} sigma_j {:>9.3e} Pa  sigma_0/sigma_j {:<6} gap {}",
                 case.number,
-                if is_there { "there" } else { "-" },
+                if self.has(&case) { "there" } else { "-" },
                 case.strength_ratio,
                 case.shear_strength,
                 case.adhesion_ratio,
@@ -104,14 +105,22 @@ impl Opened {
 
     fn count(&self) -> Result<(), Failure> {
         let cases = self.file.cases();
-        let is_there = |case: &&adhesive::Case| adhesive::is_made(&self.file, case, &self.out);
-        let there = cases.iter().filter(is_there).count();
+        let there = cases.iter().filter(|case| self.has(case)).count();
         let (all, place) = (cases.len(), self.out.display());
         say::say(&format!("{} in {place}\n", say::of_cases(there, all)))
     }
 
-    /// Writes the files of the cases that are there, and shows them.
+    /// True where `case` is there.
+    fn has(&self, case: &adhesive::Case) -> bool {
+        adhesive::is_made(&self.file, case, &self.out)
+    }
+
+    /// Writes the files of the cases that are there, if any is, and shows them.
     fn tell(&self) -> Result<(), Failure> {
+        let all = self.file.cases();
+        if !all.iter().any(|case| self.has(case)) {
+            return Err(self.lacks(all.len()));
+        }
         let map = adhesive::result(&self.file, &self.out);
         output_folder::make(&self.out)?;
         adhesive::write(&map, &self.out).map_err(failure)?;
@@ -122,10 +131,13 @@ impl Opened {
         ))?;
         match map.missing() {
             0 => Ok(()),
-            missing => Err(Failure::Run(anyhow::anyhow!(
-                "{} missing",
-                say::of_cases(missing, self.file.cases().len())
-            ))),
+            missing => Err(self.lacks(missing)),
         }
+    }
+
+    /// That `missing` cases are.
+    fn lacks(&self, missing: usize) -> Failure {
+        let all = self.file.cases().len();
+        Failure::Run(anyhow::anyhow!("{} missing", say::of_cases(missing, all)))
     }
 }

@@ -69,7 +69,8 @@ pub(crate) struct CheckArguments {
 pub(crate) struct RunArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// Folder for the results; a run that is there is replaced [default: runs/<scene name>].
+    /// Folder for the results; a run that is there is replaced, files of anything else are refused
+    /// [default: runs/<scene name>].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Floating-point numbers of the engine.
@@ -109,7 +110,8 @@ pub(crate) struct FileArguments {
     /// Change a value of the file, as in samples.most=256 or bodies.overlap=0.3; may be repeated.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub(crate) sets: Vec<String>,
-    /// Folder for the results [default: runs/<its name>].
+    /// Folder for the results; cases that are there are kept, tables are replaced, files of anything else of
+    /// the same names are refused [default: runs/<its name>].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Threads [default: one per core].
@@ -202,7 +204,8 @@ pub(crate) enum AdhesiveCommand {
 pub(crate) struct AdhesiveRunArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// Folder for the results; a run that is there is replaced [default: runs/<scene name>].
+    /// Folder for the results; a run that is there is replaced, files of anything else are refused
+    /// [default: runs/<scene name>].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Print the summary file's content, and nothing else.
@@ -215,7 +218,8 @@ pub(crate) struct AdhesiveRunArguments {
 pub(crate) struct ConvergenceArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// Folder for the results [default: runs/<scene name>, convergence].
+    /// Folder for the results; a study that is there is replaced, files of anything else of the same names
+    /// are refused [default: runs/<scene name>, convergence].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// What to vary; may be repeated [default: everything].

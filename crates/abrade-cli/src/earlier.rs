@@ -4,21 +4,20 @@
 use std::path::Path;
 
 use abrade_report::quantity_text::time;
+use abrade_report::run_files;
 use anyhow::anyhow;
 use serde_json::Value;
 
 use crate::failure::Failure;
-
-/// Endings of what a run leaves that was killed.
-const BROKEN: [&str; 3] = [".partial", ".vtp", ".pvd"];
+use crate::say;
 
 /// Makes sure that a run may write into `folder`; says so if it replaces another one.
 pub(crate) fn make_way_for_run(folder: &Path) -> Result<(), Failure> {
-    let names = names(folder);
     let summary = folder.join("summary.json");
     match run_name(&summary) {
         Some(name) => tell(&format!("the run `{name}`"), &summary, folder),
-        None if names.iter().all(|name| BROKEN.iter().any(|end| name.ends_with(end))) => {}
+        // Of a run that was broken off there is nothing to tell.
+        None if run_files::is_of_run(folder) || is_empty(folder) => {}
         None => return Err(foreign(folder, "files that are no run's of abrade")),
     }
     Ok(())
@@ -35,19 +34,26 @@ pub(crate) fn make_way_for_convergence(folder: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Makes sure that a study that keeps its cases in `folder` may write `tables` there. One of its own goes on.
-pub(crate) fn make_way_for_cases(folder: &Path, tables: &[&str]) -> Result<(), Failure> {
-    match folder.join("cases").is_dir() {
+/// Makes sure that a study that keeps its cases in `folder`, each in a file of its number and `end`, may write
+/// `tables` there. One of its own goes on.
+pub(crate) fn make_way_for_cases(folder: &Path, end: &str, tables: &[&str]) -> Result<(), Failure> {
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|c| c.is_ascii_digit());
+    let cases = folder.join("cases");
+    match names(&cases).any(|name| name.strip_suffix(end).is_some_and(is_number)) {
         true => Ok(()),
         false => refuse_any(folder, tables),
     }
 }
 
-/// Names in `folder`, but for hidden ones; none where there is no folder.
-fn names(folder: &Path) -> Vec<String> {
+/// True where there is no `folder`, or nothing in it but hidden files.
+fn is_empty(folder: &Path) -> bool {
+    names(folder).all(|name| name.starts_with('.'))
+}
+
+/// Names in `folder`; none where there is none.
+fn names(folder: &Path) -> impl Iterator<Item = String> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
-    names.filter(|name| !name.starts_with('.')).collect()
+    entries.map(|entry| entry.file_name().to_string_lossy().into_owned())
 }
 
 /// What the run is called whose summary lies at `path`, if that is one.
@@ -77,5 +83,6 @@ fn tell(what: &str, path: &Path, folder: &Path) {
     let age =
         path.metadata().and_then(|file| file.modified()).ok().and_then(|at| at.elapsed().ok());
     let age = age.map_or(String::new(), |age| format!(" of {} ago", time(age.as_secs_f64())));
-    eprintln!("note: replaces {what}{age} in {}; --out DIR keeps both", folder.display());
+    let place = folder.display();
+    say::aside(&format!("note: replaces {what}{age} in {place}; --out DIR keeps both"));
 }

@@ -11,7 +11,17 @@ use crate::study::failure;
 use crate::{earlier, interrupt, kind, output_folder, say};
 
 /// Files of a study beside those of its cases.
-pub(crate) const TABLES: [&str; 3] = ["report.html", "cases.csv", "grains.csv"];
+const TABLES: [&str; 9] = [
+    "report.html",
+    "cases.csv",
+    "cases.jsonl",
+    "grains.csv",
+    "wear.png",
+    "ratio.png",
+    "debris.png",
+    "speed.png",
+    "craters.png",
+];
 
 /// A study, and where its files and its results lie.
 pub(crate) struct Opened {
@@ -38,9 +48,14 @@ pub(crate) fn open(arguments: &FileArguments) -> Result<Opened, Failure> {
 }
 
 impl Opened {
+    /// Makes sure that the study may write into its folder.
+    pub(crate) fn make_way(&self) -> Result<(), Failure> {
+        earlier::make_way_for_cases(&self.out, ".jsonl", &TABLES)
+    }
+
     /// Makes those of `cases` that are not there; returns those that cannot be made.
     pub(crate) fn make(&self, cases: &[Case]) -> Result<Vec<Unmade>, Failure> {
-        earlier::make_way_for_cases(&self.out, &TABLES)?;
+        self.make_way()?;
         output_folder::make(&self.out)?;
         let stop = interrupt::flag();
         let mut bar = Bar::of_cases(&stop);
@@ -49,8 +64,12 @@ impl Opened {
         made.map_err(failure)
     }
 
-    /// Writes the tables of the cases that are there, and shows them; says why the `unmade` are missing.
+    /// Writes the tables of the cases that are there, if any is, and shows them; says why the `unmade` are missing.
     pub(crate) fn tell(&self, unmade: &[Unmade]) -> Result<(), Failure> {
+        let all = self.file.cases();
+        if !all.iter().any(|case| self.has(case)) {
+            return Err(self.lacks(all.len(), unmade));
+        }
         let result = erosion::result(&self.file, &self.beside, &self.out).map_err(failure)?;
         output_folder::make(&self.out)?;
         erosion::write(&result, &self.beside, &self.out).map_err(failure)?;
@@ -63,6 +82,11 @@ impl Opened {
             0 => Ok(()),
             missing => Err(self.lacks(missing, unmade)),
         }
+    }
+
+    /// True where `case` is there.
+    pub(crate) fn has(&self, case: &Case) -> bool {
+        erosion::is_made(&self.file, &self.beside, case, &self.out)
     }
 
     /// That `missing` cases are, and why the `unmade` are.

@@ -5,6 +5,7 @@ use std::io::IsTerminal;
 use abrade_scene::SceneError;
 
 use crate::render;
+use crate::say;
 
 /// Exit code of work that the user broke off.
 pub(crate) const INTERRUPTED: u8 = 130;
@@ -35,10 +36,11 @@ impl Failure {
     pub(crate) fn print(&self) {
         match self {
             Self::Scene(error) => {
-                eprint!("{}", render::scene_error(error, std::io::stderr().is_terminal()));
+                let text = render::scene_error(error, std::io::stderr().is_terminal());
+                say::aside(text.trim_end_matches('\n'));
             }
-            Self::Input(error) | Self::Run(error) => eprintln!("error: {error:#}"),
-            Self::Interrupted => eprintln!("interrupted; the results so far are kept"),
+            Self::Input(error) | Self::Run(error) => say::aside(&format!("error: {error:#}")),
+            Self::Interrupted => say::aside("interrupted; the results so far are kept"),
         }
     }
 }

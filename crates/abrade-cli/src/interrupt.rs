@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::failure::INTERRUPTED;
+use crate::say;
 
 /// A flag that an interrupt sets from now on.
 pub(crate) fn flag() -> Arc<AtomicBool> {
@@ -14,7 +15,7 @@ pub(crate) fn flag() -> Arc<AtomicBool> {
         if seen.swap(true, Ordering::Relaxed) {
             std::process::exit(i32::from(INTERRUPTED));
         }
-        eprintln!("\nstops after the step under way; once more stops at once");
+        say::aside("\nstops after the step under way; once more stops at once");
     });
     flag
 }

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use abrade_scene::{Checked, SceneError};
+use abrade_scene::{Checked, SceneError, file_text};
 use abrade_study::adhesive::{self, MapFile, SceneFile};
 use abrade_study::erosion::{self, StudyFile};
 use anyhow::anyhow;
@@ -27,47 +27,74 @@ pub(crate) enum Read {
     Map(MapFile),
 }
 
+/// The kinds; a file that could be of several is taken for the first.
 const KINDS: [Kind; 4] = [Kind::Scene, Kind::Erosion, Kind::Asperities, Kind::Map];
 
 /// A scene of bodies and surfaces.
 pub(crate) fn scene(path: &Path, sets: &[String]) -> Result<Checked, Failure> {
-    abrade_scene::load(path, sets).map_err(|error| Kind::Scene.refused(path, error))
+    Kind::Scene.load(path, |text| scene_of(path, text, sets))
 }
 
 /// A study of erosion.
 pub(crate) fn erosion(path: &Path, sets: &[String]) -> Result<StudyFile, Failure> {
-    erosion::load(path, sets).map_err(|error| Kind::Erosion.refused(path, error))
+    Kind::Erosion.load(path, |text| erosion::load_text(path, text, sets))
 }
 
 /// A scene of two asperities.
 pub(crate) fn asperities(path: &Path, sets: &[String]) -> Result<SceneFile, Failure> {
-    adhesive::load_scene(path, sets).map_err(|error| Kind::Asperities.refused(path, error))
+    Kind::Asperities.load(path, |text| adhesive::load_scene_text(path, text, sets))
 }
 
 /// A map of two asperities.
 pub(crate) fn map(path: &Path, sets: &[String]) -> Result<MapFile, Failure> {
-    adhesive::load_map(path, sets).map_err(|error| Kind::Map.refused(path, error))
+    Kind::Map.load(path, |text| adhesive::load_map_text(path, text, sets))
 }
 
-/// A file of whatever kind it is.
+/// A file of whatever kind it is: of several that know as many of its names, of the first that finds no fault.
 pub(crate) fn any(path: &Path, sets: &[String]) -> Result<Read, Failure> {
-    match Kind::of(path, Kind::Scene) {
-        Kind::Scene => scene(path, sets).map(Box::new).map(Read::Scene),
-        Kind::Erosion => erosion(path, sets).map(Read::Erosion),
-        Kind::Asperities => asperities(path, sets).map(Read::Asperities),
-        Kind::Map => map(path, sets).map(Read::Map),
+    let text = file_text(path, Kind::Scene.name()).map_err(Failure::Scene)?;
+    let mut faults = Vec::new();
+    for kind in Kind::likely(&text) {
+        match kind.read(path, text.clone(), sets) {
+            Ok(read) => return Ok(read),
+            Err(error) => faults.push(error),
+        }
     }
+    Err(Failure::Scene(faults.swap_remove(0)))
+}
+
+fn scene_of(path: &Path, text: String, sets: &[String]) -> Result<Checked, SceneError> {
+    let folder = path.parent().map(Path::to_owned).unwrap_or_default();
+    abrade_scene::load_text(&path.display().to_string(), text, folder, sets)
 }
 
 impl Kind {
-    /// The kind that knows the most of the names in the file at `path`; of several, `first` or the first.
-    fn of(path: &Path, first: Self) -> Self {
-        // What cannot be read here has no names, and is refused where it is loaded.
-        let text = std::fs::read_to_string(path).unwrap_or_default();
-        let names = abrade_scene::field_names(&text);
-        let kinds = [first].into_iter().chain(KINDS);
-        let known = kinds.map(|kind| (kind.known(&names), kind)).rev();
-        known.max_by_key(|(known, _)| *known).map_or(first, |(_, kind)| kind)
+    /// What `read` makes of the text of the file at `path`, which is read once: it may be a pipe.
+    fn load<T>(
+        self,
+        path: &Path,
+        read: impl FnOnce(String) -> Result<T, SceneError>,
+    ) -> Result<T, Failure> {
+        let text = file_text(path, self.name()).map_err(Failure::Scene)?;
+        read(text.clone()).map_err(|error| self.refused(path, &text, error))
+    }
+
+    fn read(self, path: &Path, text: String, sets: &[String]) -> Result<Read, SceneError> {
+        match self {
+            Self::Scene => scene_of(path, text, sets).map(Box::new).map(Read::Scene),
+            Self::Erosion => erosion::load_text(path, text, sets).map(Read::Erosion),
+            Self::Asperities => adhesive::load_scene_text(path, text, sets).map(Read::Asperities),
+            Self::Map => adhesive::load_map_text(path, text, sets).map(Read::Map),
+        }
+    }
+
+    /// The kinds that know the most of the names in `text`; at least one.
+    fn likely(text: &str) -> Vec<Self> {
+        let names = abrade_scene::field_names(text);
+        let known = KINDS.map(|kind| kind.known(&names));
+        let most = known.into_iter().max().unwrap_or(0);
+        let all = KINDS.into_iter().zip(known);
+        all.filter(|(_, known)| *known == most).map(|(kind, _)| kind).collect()
     }
 
     /// How many of `names` are fields of this kind of file.
@@ -90,13 +117,23 @@ impl Kind {
         }
     }
 
-    /// What is wrong with the file: `error`, unless another kind knows more of its names.
-    fn refused(self, path: &Path, error: SceneError) -> Failure {
-        match Self::of(path, self) {
-            kind if kind == self => Failure::Scene(error),
-            kind => {
+    /// What a file of this kind is called in messages.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Scene | Self::Asperities => "scene",
+            Self::Erosion => "study",
+            Self::Map => "map",
+        }
+    }
+
+    /// What is wrong with the file of this `text`: `error`, unless other kinds know more of its names.
+    fn refused(self, path: &Path, text: &str, error: SceneError) -> Failure {
+        let likely = Self::likely(text);
+        match likely.first() {
+            Some(kind) if !likely.contains(&self) => {
                 Failure::Input(anyhow!("{} is a file for `{}`", path.display(), kind.command()))
             }
+            _ => Failure::Scene(error),
         }
     }
 }

@@ -8,6 +8,8 @@ use abrade_report::quantity_text::{count, time};
 use abrade_scene::Progress;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::say;
+
 /// Parts of a run that the bar can show.
 const PARTS: u64 = 1000;
 /// Time between two lines in a pipe.
@@ -67,7 +69,7 @@ impl Progress for Bar<'_> {
             Shown::Bar(bar) => show(bar, share, doing),
             Shown::Lines { began, lines } => {
                 if let Some(line) = lines.next(began.elapsed(), share, &doing) {
-                    eprintln!("{line}");
+                    say::aside(&line);
                 }
             }
         }
@@ -80,23 +82,23 @@ impl Progress for Bar<'_> {
 }
 
 fn show(bar: &ProgressBar, share: Option<f64>, mut doing: String) {
+    let is_first = share.is_some() && bar.length().is_none();
     if let Some(share) = share {
-        let is_first = bar.length().is_none();
         if is_first {
             bar.set_length(PARTS);
             let style = ProgressStyle::with_template("{bar:40} {percent:>3} %  {msg}{eta} left");
             bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         }
         bar.set_position((share * PARTS as f64) as u64);
-        if is_first {
-            // What an earlier call has made took no time now.
-            bar.reset_eta();
-        }
         if !doing.is_empty() {
             doing += ", ";
         }
     }
     bar.set_message(doing);
+    if is_first {
+        // What an earlier call has made took no time now. The message takes the place into the estimate.
+        bar.reset_eta();
+    }
 }
 
 /// The lines of a pipe.
@@ -123,7 +125,8 @@ impl Lines {
             let rate = (share - before) / (now - began).as_secs_f64();
             (rate > 0.0).then(|| (1.0 - share) / rate)
         });
-        parts.extend(left.map(|left| format!("about {} left", time(left.round()))));
+        let left = left.map(f64::round).filter(|left| *left > 0.0);
+        parts.extend(left.map(|left| format!("about {} left", time(left))));
         Some(parts.join(", "))
     }
 }
@@ -146,6 +149,7 @@ mod tests {
         assert_eq!(told, "after 20 s, 75 %, 5 of 10 cases, about 20 s left");
         assert_eq!(at(29.9, 0.8), None);
         assert!(at(30.0, 0.8).is_some());
+        assert_eq!(at(40.0, 1.0).as_deref(), Some("after 40 s, 100 %, 5 of 10 cases"));
     }
 
     /// Fails for a run whose end nobody knows that stays silent, or tells an end.

@@ -1,4 +1,4 @@
-//! Text for the standard output stream.
+//! Text for the standard output stream, and lines for the standard error stream.
 
 use std::io::{ErrorKind, Write};
 
@@ -11,6 +11,11 @@ use crate::failure::Failure;
 pub(crate) fn of_cases(part: usize, all: usize) -> String {
     let are = if all == 1 { "is" } else { "are" };
     format!("{part} of {} {are}", count(all, "case", "cases"))
+}
+
+/// Tells `line` on the standard error stream. Work goes on where nobody reads it, or the disk behind it is full.
+pub(crate) fn aside(line: &str) {
+    let _ = std::io::stderr().lock().write_all(format!("{line}\n").as_bytes());
 }
 
 /// Prints `text`. A reader that has gone, as in `abrade schema | head`, is no fault.

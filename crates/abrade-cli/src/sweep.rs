@@ -6,8 +6,7 @@ use abrade_report::quantity_text::digits;
 use abrade_study::erosion;
 
 use crate::arguments::SweepArguments;
-use crate::earlier;
-use crate::erosion::{Opened, TABLES, open};
+use crate::erosion::{Opened, open};
 use crate::failure::Failure;
 use crate::say;
 use crate::study::failure;
@@ -19,7 +18,7 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
         return list(&opened);
     }
     if let Some(folders) = &arguments.part.merge {
-        earlier::make_way_for_cases(&opened.out, &TABLES)?;
+        opened.make_way()?;
         for folder in folders {
             erosion::gather(&opened.file, &opened.beside, folder, &opened.out).map_err(failure)?;
         }
@@ -50,10 +49,4 @@ fn list(opened: &Opened) -> Result<(), Failure> {
         );
     }
     say::say(&text)
-}
-
-impl Opened {
-    fn has(&self, case: &erosion::Case) -> bool {
-        erosion::is_made(&self.file, &self.beside, case, &self.out)
-    }
 }

@@ -18,7 +18,10 @@ pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
         let fault = abrade_scene::unread(&arguments.folder, &error);
         let place = output_folder::chosen(None, &arguments.folder.to_string_lossy());
         let hint = match place.is_dir() {
-            true => format!("; its run is in `{}`", place.display()),
+            true => {
+                let joint = if fault.ends_with('?') { " Its" } else { "; its" };
+                format!("{joint} run is in `{}`", place.display())
+            }
             false => String::new(),
         };
         return Err(Failure::Input(anyhow!("{fault}{hint}")));
@@ -43,7 +46,7 @@ pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
     );
     say::say(&text)?;
     if let Some(note) = size_note(html.len()) {
-        eprintln!("{note}");
+        say::aside(&note);
     }
     Ok(())
 }

@@ -116,6 +116,8 @@ pub enum FileAction {
     Write,
     /// Give it its final name.
     Rename,
+    /// Remove it.
+    Remove,
 }
 
 impl fmt::Display for FileAction {
@@ -125,6 +127,7 @@ impl fmt::Display for FileAction {
             Self::Create => "create",
             Self::Write => "write to",
             Self::Rename => "rename a finished file to",
+            Self::Remove => "remove",
         })
     }
 }

@@ -18,6 +18,7 @@ pub mod page;
 pub mod picture;
 pub mod pvd;
 pub mod quantity_text;
+pub mod run_files;
 pub mod sheet;
 pub mod summary;
 mod units;

@@ -18,10 +18,9 @@ pub(crate) fn deserialise<T: DeserializeOwned>(
     patched: &Patched,
     tree: &Node,
 ) -> Result<T, Vec<Problem>> {
-    let mut text = patched.text.clone();
-    let mut problems = Vec::new();
+    let (mut blanked, mut problems) = (Vec::new(), Vec::new());
     loop {
-        let fault = match read::<T>(patched, &text, tree) {
+        let fault = match read::<T>(patched, &blanked, tree) {
             Ok(value) if problems.is_empty() => return Ok(value),
             Ok(_) => return Err(problems),
             Err(fault) => fault,
@@ -35,9 +34,8 @@ pub(crate) fn deserialise<T: DeserializeOwned>(
             }
             Fault::Unknown(problem, place) => {
                 problems.push(problem);
-                let known = place.filter(|place| !text[place.clone()].trim().is_empty());
-                let Some(place) = known else { return Err(problems) };
-                text.replace_range(place.clone(), &" ".repeat(place.len()));
+                let Some(place) = place else { return Err(problems) };
+                blanked.push(place);
             }
         }
     }
@@ -58,9 +56,14 @@ enum Fault {
     Other(Problem),
 }
 
-/// The value that `text` says, which is that of `patched` with some fields blanked out.
-fn read<T: DeserializeOwned>(patched: &Patched, text: &str, tree: &Node) -> Result<T, Fault> {
-    let mut deserializer = ron::Deserializer::from_str_with_options(text, &options())
+/// The value that the text of `patched` says with some fields `blanked` out.
+fn read<T: DeserializeOwned>(
+    patched: &Patched,
+    blanked: &[Range<usize>],
+    tree: &Node,
+) -> Result<T, Fault> {
+    let text = without(&patched.text, blanked);
+    let mut deserializer = ron::Deserializer::from_str_with_options(&text, &options())
         .map_err(|error| Fault::Other(refusal::syntax(patched, &error)))?;
     let value = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
         let path = refusal::scene_path(error.path());
@@ -68,7 +71,9 @@ fn read<T: DeserializeOwned>(patched: &Patched, text: &str, tree: &Node) -> Resu
         let Some(path) = path else { return Fault::Other(refusal::syntax(patched, &error)) };
         let problem = refusal::refusal(patched, tree, &path, &error);
         match error.code {
-            Error::NoSuchStructField { .. } => Fault::Unknown(problem, field(text, tree, &path)),
+            Error::NoSuchStructField { .. } => {
+                Fault::Unknown(problem, field(&patched.text, blanked, tree, &path))
+            }
             Error::MissingStructField { .. } => Fault::Missing(problem),
             _ => Fault::Other(problem),
         }
@@ -78,12 +83,28 @@ fn read<T: DeserializeOwned>(patched: &Patched, text: &str, tree: &Node) -> Resu
     Ok(value)
 }
 
-/// The field at `path`, from its name to that of the next one or to the end of what it stands in.
-fn field(text: &str, tree: &Node, path: &ScenePath) -> Option<Range<usize>> {
+/// `text` with `blanked` out bytes. Lines and characters keep their numbers, by which RON tells places.
+fn without(text: &str, blanked: &[Range<usize>]) -> String {
+    let is_blanked = |at: usize| blanked.iter().any(|place| place.contains(&at));
+    let kept = |(at, c): (usize, char)| if c != '\n' && is_blanked(at) { ' ' } else { c };
+    text.char_indices().map(kept).collect()
+}
+
+/// The field at `path` that is not `blanked` out, from its name to that of the next one or to the end of what it
+/// stands in.
+fn field(
+    text: &str,
+    blanked: &[Range<usize>],
+    tree: &Node,
+    path: &ScenePath,
+) -> Option<Range<usize>> {
     let (last, parents) = path.0.split_last()?;
     let parent = tree.find(text, parents);
     let node = parent.node;
-    let named = |entry: &crate::spans::Entry| crate::spans::name_of(text, &entry.key) == last.name;
+    let named = |entry: &crate::spans::Entry| {
+        let is_blanked = blanked.iter().any(|place| place.contains(&entry.key.start));
+        !is_blanked && crate::spans::name_of(text, &entry.key) == last.name
+    };
     let at = node.entries().iter().position(named).filter(|_| parent.depth == parents.len())?;
     let end = match (&node.kind, node.entries().get(at + 1)) {
         (_, Some(next)) => next.key.start,

@@ -39,16 +39,7 @@ impl<T: DeserializeOwned> Document<T> {
     /// # Errors
     /// It cannot be read, is not RON, or a word or value does not fit its place.
     pub fn load(path: &Path, sets: &[String], kind: FileKind) -> Result<Self, SceneError> {
-        let name = path.display().to_string();
-        let read = std::fs::read(path).map_err(|error| unread(path, &error));
-        let text = read.and_then(|bytes| {
-            String::from_utf8(bytes).map_err(|_| "it is not a text in UTF-8".to_owned())
-        });
-        let text = text.map_err(|reason| {
-            let problem = Problem::unplaced(format!("the {} cannot be read: {reason}", kind.name));
-            SceneError { path: name.clone(), sources: Vec::new(), problems: vec![problem] }
-        })?;
-        Self::read(&name, text, sets, kind)
+        Self::read(&path.display().to_string(), file_text(path, kind.name)?, sets, kind)
     }
 
     /// [`Document::load`] for a text; `name` serves messages.
@@ -103,6 +94,22 @@ impl<T> Document<T> {
     pub(crate) fn into_parts(self) -> (T, Patched, Node, Vec<Problem>) {
         (self.value, self.patched, self.tree, self.problems)
     }
+}
+
+/// The text of the file at `path`, a `kind` in messages.
+///
+/// # Errors
+/// It cannot be read, or is no text.
+pub fn file_text(path: &Path, kind: &str) -> Result<String, SceneError> {
+    let read = std::fs::read(path).map_err(|error| unread(path, &error));
+    let text = read.and_then(|bytes| {
+        String::from_utf8(bytes).map_err(|_| "it is not a text in UTF-8".to_owned())
+    });
+    text.map_err(|reason| {
+        let problem = Problem::unplaced(format!("the {kind} cannot be read: {reason}"));
+        let path = path.display().to_string();
+        SceneError { path, sources: Vec::new(), problems: vec![problem] }
+    })
 }
 
 /// What is wrong with a `name` that becomes a folder's.

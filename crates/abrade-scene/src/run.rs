@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use abrade::{Drive, DriveSolution, PhysicsError, Until};
-use abrade_report::{ReportError, Summary};
+use abrade_report::{ReportError, Summary, run_files};
 use thiserror::Error;
 
 use crate::build::{BuildError, Built};
@@ -25,6 +25,7 @@ mod erosion;
 mod estimate;
 mod extent;
 mod fate;
+mod files;
 mod frames;
 mod impacts;
 mod record;
@@ -112,7 +113,7 @@ pub struct Outcome {
     pub interrupted: bool,
 }
 
-/// Runs `checked`, writes what it asks for into the folder.
+/// Runs `checked`, writes what it asks for into the folder, in the place of what an earlier run left there.
 ///
 /// # Errors
 /// The scene cannot be built or its results cannot be written. A failure of the physics is in
@@ -126,6 +127,7 @@ pub fn run(
     let built = checked.build()?;
     std::fs::create_dir_all(&options.folder)
         .map_err(|reason| RunError::Folder { folder: options.folder.clone(), reason })?;
+    run_files::begin(&options.folder, &files::names(checked))?;
     let mut bodies = Bodies::new(checked, &built);
     let mut recorder = Recorder::new(checked, &built, &options.folder)?;
     let mut engine = engine(checked, built, options.precision)?;

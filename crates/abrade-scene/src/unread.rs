@@ -16,16 +16,21 @@ pub fn unread(path: &Path, error: &Error) -> String {
     let Some((folder, name)) = place.filter(|_| error.kind() == ErrorKind::NotFound) else {
         return error.kind().to_string();
     };
-    let Ok(entries) = std::fs::read_dir(folder) else {
-        return format!("there is no folder `{}`", folder.display());
+    let entries = match std::fs::read_dir(folder) {
+        Ok(entries) => entries,
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            return format!("there is no folder `{}`", folder.display());
+        }
+        Err(_) => return error.kind().to_string(),
     };
+    let name = name.to_string_lossy();
     let mut known: Vec<String> = entries
         .flatten()
         .map(|entry| entry.file_name().to_string_lossy().into_owned())
-        .filter(|known| !known.starts_with('.'))
+        // A link that leads nowhere has the name itself.
+        .filter(|known| !known.starts_with('.') && *known != name)
         .collect();
     known.sort();
-    let name = name.to_string_lossy();
     let mut text = format!("there is no `{name}` in `{}`", folder.display());
     // The endings of all files are alike, and make no names alike.
     let stems = known.iter().map(|name| (stem(name), name.as_str()));

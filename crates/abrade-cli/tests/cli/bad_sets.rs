@@ -133,11 +133,14 @@ fn an_unwritable_output_folder() {
 }
 
 /// Fails for a file that is told as missing without the folder that was looked in, and for names that are alike by
-/// their endings alone.
+/// their endings alone or are the one that was given.
 #[test]
 fn a_scene_that_is_not_there() {
     let folder = Folder::new("a_scene_that_is_not_there");
     folder.write("scent.ron", "");
+    // Its name is there, what it leads to is not.
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("nowhere.ron", folder.0.join("lost.ron")).unwrap();
     let here = folder.0.display();
     for (name, why) in [
         ("x.ron", format!("there is no `x.ron` in `{here}`")),
@@ -148,6 +151,7 @@ fn a_scene_that_is_not_there() {
             ),
         ),
         ("none/x.ron", format!("there is no folder `{here}/none`")),
+        ("lost.ron", format!("there is no `lost.ron` in `{here}`")),
     ] {
         let said = folder.abrade(&["run", name]);
         let message = format!(

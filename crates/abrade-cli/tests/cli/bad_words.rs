@@ -65,6 +65,47 @@ scene.ron: 3 problems, nothing was run
     );
 }
 
+/// Fails for a fault that is told a line above its own, or beside its place, because misspelt fields before it take
+/// lines or bytes with them.
+#[test]
+fn a_fault_below_a_misspelt_field_keeps_its_place() {
+    refused(
+        "a_fault_below_a_misspelt_field_keeps_its_place",
+        &[
+            ("removal: All,", "remval: All,"),
+            ("stop: AllRebounded", "stp: \"\u{b5}\u{b5}\", stop: AllRebounded(3)"),
+        ],
+        &[],
+        &[],
+        r#"error: unknown field `remval` in `surfaces.plate`
+  --> scene.ron:15:7
+   |
+15 |       remval: All,
+   |       ^^^^^^ expected `material`, `geometry`, `flow`, `elastic`, `hardness_map`, `regions`, `motion`, `removal`, `density`, `restitution`, `adhesion`, `archard`, `position`, `rotation` or `copies`
+   |
+   = help: did you mean `removal`?
+
+error: unknown field `stp` in `run`
+  --> scene.ron:28:9
+   |
+28 |   run: (stp: "µµ", stop: AllRebounded(3), resolve: Auto, accuracy: 1e-3),
+   |         ^^^ expected `stop`, `resolve`, `accuracy` or `step`
+   |
+   = help: did you mean `stop`?
+
+error: the scene is not RON
+  --> scene.ron:28:38
+   |
+28 |   run: (stp: "µµ", stop: AllRebounded(3), resolve: Auto, accuracy: 1e-3),
+   |                                      ^ expected comma
+   |
+   = help: this variant has no fields
+
+scene.ron: 3 problems, nothing was run
+"#,
+    );
+}
+
 #[test]
 fn an_unknown_variant() {
     refused(

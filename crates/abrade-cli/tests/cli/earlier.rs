@@ -16,18 +16,42 @@ fn a_run_that_replaces_another_one_says_so() {
     let (begin, end) = ("note: replaces the run `Oblique impact of a ball` of ", " ago in ");
     assert!(again.err.starts_with(begin), "{}", again.err);
     assert!(again.err.ends_with(&format!("{end}{place}; --out DIR keeps both\n")), "{}", again.err);
-    // What a run leaves that was killed is no reason to ask.
-    let summary = folder.0.join(place).join("summary.json");
-    std::fs::remove_file(&summary).unwrap();
+    // What a run leaves that was killed while it wrote its last files is no reason to ask.
+    std::fs::remove_file(folder.0.join(place).join("summary.json")).unwrap();
     let history = folder.0.join(place).join("history.csv");
-    std::fs::rename(&history, history.with_extension("csv.1-2-0.partial")).unwrap();
-    for entry in std::fs::read_dir(folder.0.join(place)).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_none_or(|end| end != "partial") {
-            std::fs::remove_file(path).unwrap();
-        }
-    }
-    assert_eq!((run().code, run().code), (Some(0), Some(0)));
+    std::fs::copy(&history, history.with_extension("csv.1-2-0.partial")).unwrap();
+    let after_kill = run();
+    assert_eq!((after_kill.code, after_kill.err.as_str()), (Some(0), ""));
+}
+
+/// Fails for a run that leaves files of the one in whose place it is, which would be shown with its numbers, and
+/// for one that takes files that are not abrade's.
+#[test]
+fn nothing_of_the_run_before_is_left_and_all_else_is() {
+    let folder = Folder::new("replaced");
+    let run = |outputs: &str| {
+        let set = format!("outputs={outputs}");
+        let said = folder.abrade(&["run", "scene.ron", "--out", "out", "--set", &set]);
+        assert_eq!(said.code, Some(0), "{}", said.err);
+        let entries = std::fs::read_dir(folder.0.join("out")).unwrap();
+        let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let mut names: Vec<String> = names.filter(|name| !name.starts_with('.')).collect();
+        names.sort();
+        names
+    };
+    let all = run("[Surface(at: End), Picture, Mesh(format: Obj), Report]");
+    let written = [
+        "report.html",
+        "summary.json",
+        "surface.obj",
+        "surface.png",
+        "surface.pvd",
+        "surface_0000.vtp",
+    ];
+    assert_eq!(all, written);
+    folder.write("out/notes.txt", "mine");
+    folder.write("out/surface_cut.png", "mine");
+    assert_eq!(run("[]"), ["notes.txt", "summary.json", "surface_cut.png"]);
 }
 
 /// Fails for a command that writes over files that are not abrade's, or that of another command.
@@ -35,16 +59,26 @@ fn a_run_that_replaces_another_one_says_so() {
 fn a_folder_of_something_else_is_left_alone() {
     let folder = Folder::new("foreign");
     folder.write("study.ron", crate::studies::EROSION);
+    folder.write("map.ron", crate::adhesive::MAP);
     let mine = folder.0.join("mine");
     std::fs::create_dir(&mine).unwrap();
     std::fs::write(mine.join("summary.json"), "{\"scene\": \"a theatre\"}").unwrap();
     std::fs::write(mine.join("report.html"), "<p>a report").unwrap();
     std::fs::write(mine.join("study.csv"), "a,b\n").unwrap();
+    std::fs::write(mine.join("map.png"), "a street").unwrap();
+    std::fs::create_dir(mine.join("cases")).unwrap();
+    std::fs::write(mine.join("cases/1.txt"), "a lawsuit").unwrap();
+    let held_by = || {
+        let places = [mine.clone(), mine.join("cases")];
+        places.map(|place| std::fs::read_dir(place).unwrap().count())
+    };
+    let before = held_by();
     for (arguments, held) in [
         (&["run", "scene.ron"][..], "files that are no run's of abrade"),
         (&["study", "erosion", "study.ron"], "report.html of something else"),
         (&["sweep", "study.ron", "--merge", "mine"], "report.html of something else"),
         (&["study", "convergence", "scene.ron"], "study.csv of something else"),
+        (&["adhesive", "map", "map.ron"], "map.png of something else"),
     ] {
         // `--merge` takes all that follows it.
         let (command, rest) = arguments.split_at(2);
@@ -54,6 +88,20 @@ fn a_folder_of_something_else_is_left_alone() {
             "error: the output folder `mine` holds {held}: name another one with --out, or empty it\n"
         );
         assert_eq!(said.err, told, "{arguments:?}");
-        assert_eq!(std::fs::read_dir(&mine).unwrap().count(), 3, "{arguments:?}");
+        assert_eq!(held_by(), before, "{arguments:?}");
     }
+}
+
+/// Fails for a run that ends where nobody reads what it tells beside its results.
+#[test]
+fn work_goes_on_where_nobody_reads_the_error_stream() {
+    use std::process::{Command, Stdio};
+
+    let folder = Folder::new("unread_stream");
+    assert_eq!(folder.abrade(&["run", "scene.ron"]).code, Some(0));
+    let mut run = Command::new(env!("CARGO_BIN_EXE_abrade"));
+    run.current_dir(&folder.0).args(["run", "scene.ron"]);
+    let mut run = run.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(run.stderr.take());
+    assert_eq!(run.wait().unwrap().code(), Some(0));
 }

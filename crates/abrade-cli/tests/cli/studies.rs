@@ -45,7 +45,8 @@ pub(crate) const EROSION: &str = r#"(version: 1, name: "two grains",
   density: 2650.0, size: Volume(diameter: "200 um"), speeds: ["98 m/s"], angles: ["30 deg"],
   samples: (least: 4, most: 4))"#;
 
-/// Fails for a study that has to be made again, or whose parts do not come to the same.
+/// Fails for a study that has to be made again, whose parts do not come to the same, or that a merge before its
+/// first case keeps from being made.
 #[test]
 fn an_erosion_study_is_made_whole_or_in_parts() {
     let folder = Folder::new("erosion");
@@ -60,6 +61,9 @@ fn an_erosion_study_is_made_whole_or_in_parts() {
     };
     let whole = table("runs/two grains");
     let sweep = |more: &[&str]| folder.abrade(&[&["sweep", "study.ron"], more].concat());
+    let none = sweep(&["--out", "a", "--merge"]);
+    assert_eq!(none.code, Some(1), "{}", none.out);
+    assert!(none.err.contains("2 of 2 cases are missing"), "{}", none.err);
     let part = sweep(&["--out", "a", "--shard", "1/2", "--jobs", "1"]);
     assert_eq!(
         (part.code, part.out.as_str()),

@@ -67,4 +67,9 @@ fn a_folder_that_is_not_there_is_told_with_what_is() {
     let said = folder.abrade(&["view", "Ball"]);
     let message = format!("error: there is no `Ball` in `{here}`; its run is in `runs/Ball`\n");
     assert_eq!((said.code, said.err), (Some(2), message));
+    assert_eq!(folder.abrade(&["run", "scene.ron", "--set", "name=\"rum\""]).code, Some(0));
+    let said = folder.abrade(&["view", "rum"]);
+    let place = "there is no `rum` in";
+    let hint = "did you mean `run` or `runs`? Its run is in `runs/rum`\n";
+    assert_eq!(said.err, format!("error: {place} `{here}`; {hint}"));
 }

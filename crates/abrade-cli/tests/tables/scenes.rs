@@ -89,6 +89,7 @@ fn the_first_scene_leaves_its_files_and_no_half_ones() {
         .collect();
     files.sort();
     let expected = [
+        ".abrade-run",
         "bodies.pvd",
         "bodies_0000.vtp",
         "history.csv",

@@ -66,6 +66,7 @@ fn copies_share_their_files_and_wear_each_on_its_own() {
         files.map(|file| file.expect("a file").file_name().into_string().expect("text")).collect();
     files.sort();
     let expected = [
+        ".abrade-run",
         "history.csv",
         "summary.json",
         "surface.obj",

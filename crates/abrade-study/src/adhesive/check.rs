@@ -4,7 +4,7 @@ use std::path::Path;
 
 use abrade::ParameterError;
 use abrade_adhesive::{Asperities, Profile, Solid};
-use abrade_scene::{Document, FileKind, SceneError, folder_name_fault, number_pairs};
+use abrade_scene::{Document, FileKind, SceneError, file_text, folder_name_fault, number_pairs};
 
 use super::file::{MapFile, SceneFile, VERSION};
 
@@ -16,8 +16,20 @@ const CASES: usize = 1_000_000;
 /// # Errors
 /// Everything that is wrong with the file at `path`, with the `sets` applied.
 pub fn load_scene(path: &Path, sets: &[String]) -> Result<SceneFile, SceneError> {
+    load_scene_text(path, file_text(path, "scene")?, sets)
+}
+
+/// [`load_scene`] for a text that was read from `path`.
+///
+/// # Errors
+/// Everything that is wrong with it.
+pub fn load_scene_text(
+    path: &Path,
+    text: String,
+    sets: &[String],
+) -> Result<SceneFile, SceneError> {
     let kind = FileKind { name: "scene", version: VERSION };
-    let mut document = Document::<SceneFile>::load(path, sets, kind)?;
+    let mut document = Document::<SceneFile>::read(&path.display().to_string(), text, sets, kind)?;
     if let Some(outline) = document.value.outline.clone() {
         let folder = path.parent().unwrap_or(Path::new("."));
         match number_pairs(folder, "outline", &outline) {
@@ -41,8 +53,16 @@ pub fn load_scene(path: &Path, sets: &[String]) -> Result<SceneFile, SceneError>
 /// # Errors
 /// Everything that is wrong with the file at `path`, with the `sets` applied.
 pub fn load_map(path: &Path, sets: &[String]) -> Result<MapFile, SceneError> {
+    load_map_text(path, file_text(path, "map")?, sets)
+}
+
+/// [`load_map`] for a text that was read from `path`.
+///
+/// # Errors
+/// Everything that is wrong with it.
+pub fn load_map_text(path: &Path, text: String, sets: &[String]) -> Result<MapFile, SceneError> {
     let kind = FileKind { name: "map", version: VERSION };
-    let mut document = Document::<MapFile>::load(path, sets, kind)?;
+    let mut document = Document::<MapFile>::read(&path.display().to_string(), text, sets, kind)?;
     let solid = document.value.solid;
     if document.value.strength_ratios.is_empty() {
         document.value.strength_ratios = vec![solid.strength_ratio];

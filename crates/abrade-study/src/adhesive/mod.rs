@@ -16,7 +16,7 @@ mod summary;
 mod write;
 
 pub use case::{Case, gather, is_made, make};
-pub use check::{load_map, load_scene};
+pub use check::{load_map, load_map_text, load_scene, load_scene_text};
 pub use file::{MapFile, SceneFile, VERSION};
 pub use fit::Boundary;
 pub use frames::PICTURE;

@@ -3,14 +3,17 @@
 use std::path::Path;
 
 use abrade_adhesive::{AdhesiveError, Collision};
+use abrade_report::run_files;
 use abrade_scene::Progress;
 
 use super::file::SceneFile;
-use super::frames::Frames;
+use super::frames::{Frames, PICTURE};
 use super::series::Series;
 use super::summary::Summary;
 use crate::error::StudyError;
 
+/// Files of a run; of a series its list.
+const FILES: [&str; 5] = ["summary.json", "elements.pvd", "links.pvd", "timeseries.csv", PICTURE];
 /// Steps between two looks at the user's wish to stop.
 const STRETCH: usize = 256;
 
@@ -33,7 +36,7 @@ pub fn element_count(file: &SceneFile) -> Result<usize, StudyError> {
     Ok(Collision::new(&file.solid, &file.bodies)?.simulation().count())
 }
 
-/// Runs the scene and writes its files into `folder`, those of a run that ends early as well.
+/// Runs the scene and writes its files into `folder`, in the place of what an earlier run left there; those of a run that ends early as well.
 ///
 /// # Errors
 /// The bodies overlap at the start, or a file cannot be written.
@@ -43,6 +46,7 @@ pub fn run(
     progress: &mut dyn Progress,
 ) -> Result<Ended, StudyError> {
     let mut collision = Collision::new(&file.solid, &file.bodies)?;
+    run_files::begin(folder, &FILES.map(str::to_owned))?;
     let mut frames = Frames::new(file, folder);
     let mut series = Series::new(file);
     let (mut failure, mut interrupted) = (None, false);

@@ -5,7 +5,7 @@ use std::path::Path;
 use abrade::{NODE_LIMIT, ParameterError, SurfaceError};
 use abrade_report::quantity_text::digits;
 use abrade_scene::scene::Form;
-use abrade_scene::{Document, FileKind, SceneError, folder_name_fault};
+use abrade_scene::{Document, FileKind, SceneError, file_text, folder_name_fault};
 
 use super::file::{Plate, StudyFile, VERSION};
 
@@ -14,8 +14,16 @@ use super::file::{Plate, StudyFile, VERSION};
 /// # Errors
 /// Everything that is wrong with the file at `path`, with the `sets` applied.
 pub fn load(path: &Path, sets: &[String]) -> Result<StudyFile, SceneError> {
+    load_text(path, file_text(path, "study")?, sets)
+}
+
+/// [`load`] for a text that was read from `path`.
+///
+/// # Errors
+/// Everything that is wrong with it.
+pub fn load_text(path: &Path, text: String, sets: &[String]) -> Result<StudyFile, SceneError> {
     let kind = FileKind { name: "study", version: VERSION };
-    let mut document = Document::<StudyFile>::load(path, sets, kind)?;
+    let mut document = Document::<StudyFile>::read(&path.display().to_string(), text, sets, kind)?;
     let folder = path.parent().unwrap_or(Path::new("."));
     check_target(&mut document);
     check_grains(&mut document, folder);

@@ -29,7 +29,7 @@ use abrade_report::atomic;
 use abrade_scene::Progress;
 
 pub use case::{Case, CaseError, Made, Unmade};
-pub use check::load;
+pub use check::{load, load_text};
 pub use descriptors::Descriptors;
 pub use file::{Plate, Samples, Sequence, Size, StudyFile, Target, VERSION};
 pub use impact::Impact;
@@ -56,9 +56,20 @@ pub fn make(
 ) -> Result<Vec<Unmade>, StudyError> {
     let store = Store::new(file, beside, out);
     let mut unmade = Vec::new();
-    for (at, case) in cases.iter().enumerate() {
+    let is_there = |case: &&Case| {
+        let is_there = store.read(case).is_some();
+        // Of two processes that were at it one may have kept it since.
+        if is_there {
+            store.forget(case);
+        }
+        is_there
+    };
+    let (there, todo): (Vec<&Case>, Vec<&Case>) = cases.iter().partition(is_there);
+    for (made, case) in todo.into_iter().enumerate() {
+        let at = there.len() + made;
         progress.cases(at, cases.len());
-        if store.read(case).is_some() {
+        // Another process may have made it by now.
+        if is_there(&case) {
             continue;
         }
         let mut part = Part { whole: progress, at, of: cases.len() };

@@ -65,9 +65,14 @@ impl Store {
         let path = self.path(case);
         let text = self.text(case, made.pitch, &made.impacts).map_err(unwritten(&path))?;
         self.put(&path, &text)?;
+        self.forget(case);
+        Ok(())
+    }
+
+    /// Removes what was kept of a case that is there; two processes may have been at it.
+    pub(crate) fn forget(&self, case: &Case) {
         // Whoever reads a case that is there does not ask what was kept of it.
         let _ = std::fs::remove_file(self.path_under_way(case));
-        Ok(())
     }
 
     /// Keeps a case that is under way.

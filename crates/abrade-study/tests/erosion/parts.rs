@@ -98,6 +98,41 @@ fn a_study_goes_on_where_it_was_broken_off() {
     assert!(!erosion::is_made(&other, Path::new(""), &cases[1], out));
 }
 
+/// Keeps what it is told.
+#[derive(Default)]
+struct Told {
+    shares: Vec<f64>,
+    over: Vec<usize>,
+}
+
+impl Progress for Told {
+    fn advance(&mut self, _: f64, share: Option<f64>) -> bool {
+        self.shares.extend(share);
+        true
+    }
+
+    fn cases(&mut self, over: usize, _: usize) {
+        self.over.push(over);
+    }
+}
+
+/// Fails for cases that are there and count by their place among the others, so that the share of the work leaps,
+/// and for what another process has kept of one of them that stays for ever.
+#[test]
+fn cases_that_are_there_count_from_the_start() {
+    let file = small();
+    let folder = tempfile::tempdir().expect("a folder");
+    let cases = file.cases();
+    make(&file, &cases[2..], folder.path());
+    let orphan = folder.path().join("cases/0003.begun.jsonl");
+    std::fs::write(&orphan, "{}").expect("a file");
+    let mut told = Told::default();
+    erosion::make(&file, Path::new(""), &cases, folder.path(), &mut told).expect("cases");
+    assert_eq!(told.over, [2, 3]);
+    assert!(told.shares[0] > 0.5 && told.shares.is_sorted(), "{:?}", told.shares);
+    assert!(!orphan.exists());
+}
+
 /// Fails for a case that begins anew, that goes on over a plate that is not the one it has worn, or that looks
 /// at its interval elsewhere when it goes on; and for one that trusts half a file.
 #[test]
