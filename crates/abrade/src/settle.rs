@@ -163,8 +163,8 @@ impl Integrator {
                 this.kick_carriers(surfaces, state, 0.5 * dt);
             }
         };
-        // Adhesion and dashpots have their place between the kicks, where they work at the mean
-        // velocity of the step: in halves around what faces do, which come after both kicks.
+        // Adhesion and dashpots work at the mean velocity of the step: between the kicks of springs, and
+        // in halves around what faces do. These come after both kicks, so that what they block rests.
         let by_faces = self.contacts.iter().any(|c| matches!(c, Contact::Columns(_)));
         if by_faces {
             kick(self, &mut state);
