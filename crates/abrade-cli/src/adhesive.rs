@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use abrade_study::adhesive::{self, MapFile};
 
 use crate::arguments::{AdhesiveRunArguments, PartArguments, SweepArguments};
-use crate::failure::Failure;
+use crate::failure::{Failure, Rest};
 use crate::progress::Bar;
 use crate::study::failure;
 use crate::{earlier, interrupt, kind, output_folder, say};
@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &AdhesiveRunArguments) -> Result<(), Failure> {
     }
     match (ended.failure, ended.interrupted) {
         (Some(error), _) => Err(Failure::Run(error.into())),
-        (None, true) => Err(Failure::Interrupted),
+        (None, true) => Err(Failure::Interrupted(Rest::Figures)),
         (None, false) => Ok(()),
     }
 }

@@ -34,7 +34,10 @@ fn write_digest(
     summary: &Summary,
     folder: &Path,
 ) -> std::fmt::Result {
-    writeln!(out, "{}", summary.scene)?;
+    match summary.complete {
+        true => writeln!(out, "{}", summary.scene)?,
+        false => writeln!(out, "{} (broken off)", summary.scene)?,
+    }
     let is_copy = |name: &String| checked.copied.values().any(|names| names.contains(name));
     for (name, surface) in summary.surfaces.iter().filter(|(name, _)| !is_copy(name)) {
         let mut parts = format!(

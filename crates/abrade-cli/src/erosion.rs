@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use abrade_report::quantity_text::count;
 use abrade_study::erosion::{self, Case, StudyFile, Unmade};
 
 use crate::arguments::FileArguments;
@@ -57,6 +58,15 @@ impl Opened {
     pub(crate) fn make(&self, cases: &[Case]) -> Result<Vec<Unmade>, Failure> {
         self.make_way()?;
         output_folder::make(&self.out)?;
+        let others = erosion::others(&self.file, &self.beside, &self.out);
+        if others > 0 {
+            say::aside(&format!(
+                "note: {} in {} of the study before it changed: they are replaced by those that are made \
+                 now; --out DIR keeps both",
+                count(others, "case is", "cases are"),
+                self.out.display()
+            ));
+        }
         let stop = interrupt::flag();
         let mut bar = Bar::of_cases(&stop);
         let made = erosion::make(&self.file, &self.beside, cases, &self.out, &mut bar);

@@ -19,7 +19,16 @@ pub(crate) enum Failure {
     /// The work itself failed.
     Run(anyhow::Error),
     /// The user broke the work off.
-    Interrupted,
+    Interrupted(Rest),
+}
+
+/// What is left of work that was broken off.
+#[derive(Clone, Copy)]
+pub(crate) enum Rest {
+    /// What was done until then; the same command begins anew.
+    Figures,
+    /// What the same command goes on from.
+    Cases,
 }
 
 impl Failure {
@@ -28,7 +37,7 @@ impl Failure {
         match self {
             Self::Run(_) => 1,
             Self::Scene(_) | Self::Input(_) => 2,
-            Self::Interrupted => INTERRUPTED,
+            Self::Interrupted(_) => INTERRUPTED,
         }
     }
 
@@ -40,7 +49,14 @@ impl Failure {
                 say::aside(text.trim_end_matches('\n'));
             }
             Self::Input(error) | Self::Run(error) => say::aside(&format!("error: {error:#}")),
-            Self::Interrupted => say::aside("interrupted; the results so far are kept"),
+            Self::Interrupted(Rest::Figures) => {
+                say::aside(
+                    "interrupted; what was done until then is kept, and begins anew if run again",
+                );
+            }
+            Self::Interrupted(Rest::Cases) => {
+                say::aside("interrupted; the same command goes on from here");
+            }
         }
     }
 }

@@ -3,7 +3,7 @@
 use abrade_scene::{Outcome, RunOptions};
 
 use crate::arguments::RunArguments;
-use crate::failure::Failure;
+use crate::failure::{Failure, Rest};
 use crate::progress::Bar;
 use crate::{digest, earlier, interrupt, kind, output_folder, say};
 
@@ -30,7 +30,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     }
     match (failure, interrupted) {
         (Some(error), _) => Err(Failure::Run(error.into())),
-        (None, true) => Err(Failure::Interrupted),
+        (None, true) => Err(Failure::Interrupted(Rest::Figures)),
         (None, false) => Ok(()),
     }
 }

@@ -4,7 +4,7 @@ use abrade_study::StudyError;
 use abrade_study::convergence::{Plan, Variant, convergence as study};
 
 use crate::arguments::{ConvergenceArguments, Vary};
-use crate::failure::Failure;
+use crate::failure::{Failure, Rest};
 use crate::progress::Bar;
 use crate::{earlier, interrupt, kind, output_folder, say};
 
@@ -31,7 +31,7 @@ pub(crate) fn convergence(arguments: &ConvergenceArguments) -> Result<(), Failur
     let place = plan.folder.display();
     say::say(&format!("{}\nstudy.csv and study.png are in {place}\n", study.table()))?;
     match study.interrupted {
-        true => Err(Failure::Interrupted),
+        true => Err(Failure::Interrupted(Rest::Figures)),
         false => Ok(()),
     }
 }
@@ -54,7 +54,7 @@ fn variants(vary: &[Vary]) -> Vec<Variant> {
 pub(crate) fn failure(error: StudyError) -> Failure {
     match error {
         StudyError::Scene(error) => Failure::Scene(error),
-        StudyError::Interrupted => Failure::Interrupted,
+        StudyError::Interrupted => Failure::Interrupted(Rest::Cases),
         StudyError::Reference { .. } | StudyError::Grain { .. } | StudyError::NoCases { .. } => {
             Failure::Input(error.into())
         }

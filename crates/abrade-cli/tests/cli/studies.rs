@@ -45,8 +45,8 @@ pub(crate) const EROSION: &str = r#"(version: 1, name: "two grains",
   density: 2650.0, size: Volume(diameter: "200 um"), speeds: ["98 m/s"], angles: ["30 deg"],
   samples: (least: 4, most: 4))"#;
 
-/// Fails for a study that has to be made again, whose parts do not come to the same, or that a merge before its
-/// first case keeps from being made.
+/// Fails for a study that has to be made again, whose parts do not come to the same, that a merge before its first
+/// case keeps from being made, or that replaces cases of another one without a word.
 #[test]
 fn an_erosion_study_is_made_whole_or_in_parts() {
     let folder = Folder::new("erosion");
@@ -81,6 +81,10 @@ fn an_erosion_study_is_made_whole_or_in_parts() {
     let one = sweep(&["--out", "d", "--case", "0", "--set", "grains={\"ball\": (form: Sphere)}"]);
     assert_eq!(one.out, "1 of 1 case is in d\n", "{}", one.err);
     assert_eq!(table("c"), whole);
+    let again = folder.abrade(&["study", "erosion", "study.ron"]);
+    assert_eq!((again.code, again.err.as_str()), (Some(0), ""));
+    let changed = folder.abrade(&["study", "erosion", "study.ron", "--set", "samples.most=5"]);
+    assert!(changed.err.starts_with("note: 2 cases are in "), "{}", changed.err);
 }
 
 /// One that ran first and looked later would leave a folder.

@@ -85,7 +85,7 @@ impl Summary {
              transferred {:.3}, debris {:.3}, links failed {:.3}, joined: {}\n  \
              mean force on the lower body {:.0} N/m along, {:.0} N/m across; {} elements, {} steps\n",
             self.name,
-            figures.mode().name(),
+            if self.share >= 1.0 { figures.mode().name() } else { "broken off, no mode yet" },
             figures.ground,
             figures.largest_piece,
             figures.small_pieces,

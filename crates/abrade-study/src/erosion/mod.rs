@@ -95,6 +95,12 @@ pub fn is_made(file: &StudyFile, beside: &Path, case: &Case, out: &Path) -> bool
     Store::new(file, beside, out).read(case).is_some()
 }
 
+/// Number of cases in the results folder `out` that are of another study, or of this one before it, a
+/// file that it names or the program's version changed: making a case replaces its file.
+pub fn others(file: &StudyFile, beside: &Path, out: &Path) -> usize {
+    Store::new(file, beside, out).others()
+}
+
 /// Takes the cases that are in the results folder `from` over into `out`.
 ///
 /// # Errors

@@ -3,6 +3,7 @@
 //! goes on where it is. Beside it lies, until then, the file of a case that is under way.
 
 use std::fmt::Write as _;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use abrade_report::{FileAction, ReportError, atomic};
@@ -58,6 +59,18 @@ impl Store {
             study: file.name.clone(),
             fingerprint: fingerprint(file, beside),
         }
+    }
+
+    /// Number of files of cases that are there, whole or begun, but not of this study as it is.
+    pub(crate) fn others(&self) -> usize {
+        let files = std::fs::read_dir(&self.folder).into_iter().flatten().flatten();
+        let head = |path: PathBuf| -> Option<Head> {
+            let mut first = String::new();
+            BufReader::new(std::fs::File::open(path).ok()?).read_line(&mut first).ok()?;
+            serde_json::from_str(&first).ok()
+        };
+        let heads = files.filter_map(|file| head(file.path()));
+        heads.filter(|head| head.fingerprint != self.fingerprint).count()
     }
 
     /// Writes a case that was made; what was kept of it goes.
