@@ -143,7 +143,7 @@ pub(crate) fn mark(
 
 /// What was allowed in the place of a value, with an angle's bound as angles are written.
 pub(crate) fn allowed(error: &ParameterError) -> String {
-    error.allowed.replace("1.5707963267948966", "90 deg")
+    error.allowed.replace("1.5707963267948966", "90 deg, a bare number is in rad")
 }
 
 /// The value as written and set, and the tree of its text.

@@ -131,7 +131,7 @@ fn check_ranges(document: &mut Document<StudyFile>) {
             if !fine {
                 let label = match field {
                     "speeds" => "must be above zero",
-                    _ => "must be above zero and at most 90 deg",
+                    _ => "must be above zero and at most 90 deg, a bare number is in rad",
                 };
                 let path = [field, &at.to_string()];
                 document.refuse(&path, format!("`{field}.{at}` is out of range"), label);
