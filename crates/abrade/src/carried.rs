@@ -10,7 +10,6 @@ use std::ops::Mul;
 use nalgebra::{Isometry3, Vector3};
 
 use crate::body::{Body, State};
-use crate::contact::Contact;
 use crate::damping::Damping;
 use crate::encounter::{EncounterSettings, Loads, Placed};
 use crate::error::PhysicsError;
@@ -116,7 +115,7 @@ impl Carried {
         settings: EncounterSettings,
     ) -> Result<Self, PhysicsError> {
         let mut integrator = Integrator::new(body, surfaces, settings)?;
-        if integrator.contacts.iter().any(|contact| matches!(contact, Contact::Columns(_))) {
+        if integrator.has_columns() {
             integrator.eta *= COLUMNS;
         }
         Ok(Self {
@@ -153,13 +152,12 @@ impl Carried {
     /// The force of springs is scaled so that its impulse is that of half the step before and
     /// half the coming one: symplectic Euler with steps of changing length is then leapfrog.
     pub fn grip(&mut self, body: &Body, surfaces: &[Placed<'_>], dt: f64) -> Grip {
-        let columns = |contact: &Contact| matches!(contact, Contact::Columns(_));
         let share = if self.last > 0.0 { 0.5 * (self.last + dt) / dt } else { 1.0 };
         let pull = self.integrator.pull;
         let mut springs = Grip { force: pull.spring_force, torque: pull.spring_torque } * share;
         springs.force += self.owed[0] / dt;
         springs.torque += self.owed[1] / dt;
-        if !self.integrator.contacts.iter().any(columns) && !self.integrator.adheres() {
+        if !self.integrator.has_columns() && !self.integrator.adheres() {
             return springs;
         }
         let dynamics = self.integrator.dynamics;

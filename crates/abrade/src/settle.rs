@@ -81,8 +81,7 @@ impl Integrator {
         [gain, ahead]: [f64; 2],
         state: &mut State,
     ) -> Charge {
-        let has_columns = self.contacts.iter().any(|c| matches!(c, Contact::Columns(_)));
-        if !has_columns && gain == 0.0 && self.short == 0.0 {
+        if !self.has_columns() && gain == 0.0 && self.short == 0.0 {
             return Charge { share: 1.0, ..Charge::default() };
         }
         let guided = self.dynamics.is_guided();
@@ -165,7 +164,7 @@ impl Integrator {
         };
         // Adhesion and dashpots work at the mean velocity of the step: between the kicks of springs, and
         // in halves around what faces do. These come after both kicks, so that what they block rests.
-        let by_faces = self.contacts.iter().any(|c| matches!(c, Contact::Columns(_)));
+        let by_faces = self.has_columns();
         if by_faces {
             kick(self, &mut state);
         }

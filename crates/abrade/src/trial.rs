@@ -299,6 +299,10 @@ impl Integrator {
         balance_ahead(self.change(&toll.spring, &state, |answer| &answer.sprung), cost, ahead).1
     }
 
+    pub(crate) fn has_columns(&self) -> bool {
+        self.contacts.iter().any(|contact| matches!(contact, Contact::Columns(_)))
+    }
+
     pub(crate) fn has_sprung_columns(&self) -> bool {
         self.contacts.iter().any(|c| matches!(c, Contact::Columns(_)) && !c.is_rigid())
     }
