@@ -156,5 +156,6 @@ fn laws(case: &Case, record: &Record) -> Vec<String> {
 /// True when the middle of the body lies under the top of a plate.
 fn is_through(case: &Case, record: &Record) -> bool {
     let at = &record.last.position;
-    case.target == Target::Strip && at.z < 0.0 && at.x.abs() < case.contact_radius()
+    let radius = case.contact_radius();
+    case.target == Target::Strip && at.z < 0.0 && at.x.abs().max(at.y.abs()) < radius
 }

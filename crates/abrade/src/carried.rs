@@ -13,7 +13,6 @@ use crate::body::{Body, State};
 use crate::damping::Damping;
 use crate::encounter::{EncounterSettings, Loads, Placed};
 use crate::error::PhysicsError;
-use crate::exit::engulfed;
 use crate::integrate::{GROWTH, Integrator};
 use crate::ledger::Ledger;
 use crate::reject::rejected;
@@ -251,7 +250,7 @@ impl Carried {
         if self.integrator.touched && self.integrator.contact_is_over(body, surfaces) {
             self.integrator.end_contact(surfaces);
         }
-        surfaces.iter().try_for_each(|placed| engulfed(placed, &body.state))
+        self.integrator.check_depth(body, surfaces)
     }
 
     /// Lets go of the surfaces in the middle of a contact: what the springs hold is lost, and

@@ -144,6 +144,29 @@ impl Integrator {
         self.touched = false;
     }
 
+    /// An error when the centre of mass is below an undeformed surface, of a body without one of its
+    /// own. A body that hangs over the edge of a strip may be as far below as it reaches; what touches
+    /// nodes from farther down is in a crater deeper than itself.
+    pub(crate) fn check_depth(
+        &self,
+        body: &Body,
+        surfaces: &[Placed<'_>],
+    ) -> Result<(), PhysicsError> {
+        let beside = if self.touching { body.shape.bounding_radius() } else { f64::INFINITY };
+        for placed in surfaces {
+            // The middle of a ring lies in what it turns on.
+            if placed.skin.is_some() {
+                continue;
+            }
+            let local = placed.pose.inverse_transform_point(&body.state.position);
+            let depth = placed.surface.depth_of(&local, beside);
+            if depth > 0.0 {
+                return Err(PhysicsError::Engulfed { depth });
+            }
+        }
+        Ok(())
+    }
+
     /// Distance between the boxes of the body and of the first surface [m].
     pub(crate) fn gap(&self, body: &Body, surfaces: &[Placed<'_>]) -> f64 {
         let placed = &surfaces[0];
@@ -169,15 +192,4 @@ fn is_clear(surface: &Surface, body: &Body, local: &State, inflation: f64) -> bo
         clear &= clearance(&body.shape, local, &rest[i]) >= inflation;
     });
     clear
-}
-
-/// An error when the centre of mass is below the undeformed surface, of a body without one of its own.
-pub(crate) fn engulfed(placed: &Placed<'_>, state: &State) -> Result<(), PhysicsError> {
-    // The middle of a ring lies in what it turns on.
-    if placed.skin.is_some() {
-        return Ok(());
-    }
-    let local = placed.pose.inverse_transform_point(&state.position);
-    let depth = placed.surface.depth_of(&local);
-    if depth > 0.0 { Err(PhysicsError::Engulfed { depth }) } else { Ok(()) }
 }

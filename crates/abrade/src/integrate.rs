@@ -14,7 +14,6 @@ use crate::contact::Contact;
 use crate::damping::{Damping, Dashpots};
 use crate::encounter::{Advance, EncounterSettings, Instant, Loads, Observer, Placed, Skin, Until};
 use crate::error::PhysicsError;
-use crate::exit::engulfed;
 use crate::flight::{acceleration, free_time, time_to_close, top_speed};
 use crate::ledger::Ledger;
 use crate::reject::{OVERLAP_STEP, rejected};
@@ -375,9 +374,7 @@ impl Integrator {
             // A step cut short at a turning point says nothing of the next one.
             self.next_dt = allowed.min(GROWTH * dt.max(self.next_dt.min(allowed)));
             self.accept(body, surfaces, loads, dt, trial, done);
-            for placed in surfaces.iter() {
-                engulfed(placed, &body.state)?;
-            }
+            self.check_depth(body, surfaces)?;
             self.check_balance(body, surfaces)?;
             return Ok(dt);
         }

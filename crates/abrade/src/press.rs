@@ -10,7 +10,6 @@ use crate::balance::{LOAD, Search};
 use crate::body::{Body, State};
 use crate::encounter::{Advance, EncounterSettings, Instant, Observer, Placed};
 use crate::error::PhysicsError;
-use crate::exit::engulfed;
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
 use crate::surface::Surface;
@@ -99,9 +98,7 @@ impl Integrator {
             self.lead(body, placed, &trial, [trial.shift / dt, spin]);
             done.impulse += self.pull.force * dt;
             done.twist += self.pull.torque * dt;
-            for placed in placed.iter() {
-                engulfed(placed, &body.state)?;
-            }
+            self.check_depth(body, placed)?;
             observer.observe(&Instant {
                 time: (i + 1) as f64 * dt,
                 state: &body.state,

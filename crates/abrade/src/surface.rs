@@ -374,13 +374,15 @@ impl Surface {
         self.least_area
     }
 
-    /// Depth of a point of the surface's frame below the undeformed surface [m]; zero outside.
-    pub(crate) fn depth_of(&self, point: &Point3<f64>) -> f64 {
+    /// Depth of a point of the surface's frame below the undeformed surface [m]; zero outside, and
+    /// beside a strip down to `beside` [m].
+    pub(crate) fn depth_of(&self, point: &Point3<f64>, beside: f64) -> f64 {
         let [low, high] = self.bounds();
         match &self.layout {
             Layout::Strip { .. } => {
                 let over = (0..2).all(|a| point[a] > low[a] && point[a] < high[a]);
-                if over { (high.z - point.z).max(0.0) } else { 0.0 }
+                let depth = high.z - point.z;
+                if depth > if over { 0.0 } else { beside } { depth } else { 0.0 }
             }
             Layout::Mesh(meshed) => meshed.solid.depth(point),
         }
