@@ -2,6 +2,7 @@
 
 mod adhesion;
 mod archard;
+mod cap;
 mod closed;
 mod convergence;
 mod drive;

@@ -32,7 +32,7 @@ fn sphere(row: &Row, angle: f64, travel: f64, nodes: f64) -> Shot {
 }
 
 /// Rms over landings of a sphere's `errors`.
-fn rms<const N: usize>(shot: &Shot, errors: impl Fn(&End) -> [f64; N]) -> [f64; N] {
+pub fn rms<const N: usize>(shot: &Shot, errors: impl Fn(&End) -> [f64; N]) -> [f64; N] {
     let landings = offsets(shot.strip.pitch, 8);
     let ends: Vec<_> = landings.iter().map(|at| errors(&shot.land(*at))).collect();
     std::array::from_fn(|i| {
@@ -41,7 +41,7 @@ fn rms<const N: usize>(shot: &Shot, errors: impl Fn(&End) -> [f64; N]) -> [f64; 
 }
 
 /// Errors at 10, 20 and 40 nodes across the contact, of the quantities `names`.
-struct Study<const N: usize> {
+pub struct Study<const N: usize> {
     names: [&'static str; N],
     /// Allowed at 20 nodes, or 40.
     limits: [f64; N],
@@ -51,12 +51,12 @@ struct Study<const N: usize> {
 }
 
 impl<const N: usize> Study<N> {
-    fn new(names: [&'static str; N], nodes: usize, limits: [f64; N]) -> Self {
+    pub fn new(names: [&'static str; N], nodes: usize, limits: [f64; N]) -> Self {
         let judged = usize::from(nodes == 40) + 1;
         Self { names, limits, judged, errors: Vec::new(), misses: Vec::new() }
     }
 
-    fn row(&mut self, row: &str, error: impl Fn(f64) -> [f64; N]) {
+    pub fn row(&mut self, row: &str, error: impl Fn(f64) -> [f64; N]) {
         let [coarse, middle, fine] = [10.0, 20.0, 40.0].map(error);
         let mut line = row.to_string();
         for (i, name) in self.names.iter().enumerate() {
@@ -71,7 +71,7 @@ impl<const N: usize> Study<N> {
     }
 
     /// The slopes are of the rms over the rows.
-    fn finish(mut self) {
+    pub fn finish(mut self) {
         for (i, name) in self.names.iter().enumerate() {
             let rms = [0, 2].map(|k| {
                 let squares: f64 = self.errors.iter().map(|e| e[i][k] * e[i][k]).sum();
