@@ -1,5 +1,5 @@
 //! Everything that can be wrong with a scene whose words are right, found in one go: ranges,
-//! names, geometry, and what is not available yet.
+//! names, geometry.
 
 mod body;
 mod carrier;
@@ -139,11 +139,6 @@ impl Checker<'_> {
         for error in results.into_iter().flatten() {
             self.out_of_range(path, &error);
         }
-    }
-
-    fn not_available(&mut self, path: &ScenePath, what: &str) {
-        let message = format!("`{what}` is not available yet");
-        self.refuse(path, message, "");
     }
 
     /// A name at `path` that should be among `known`.

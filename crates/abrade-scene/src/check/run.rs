@@ -78,7 +78,6 @@ impl Checker<'_> {
             Output::Laws { names, surface_density, given } => {
                 self.check_impact_laws(path, names, *surface_density, given);
             }
-            Output::Checkpoint => self.not_available(path, "Checkpoint"),
             Output::Bodies
             | Output::Mesh { .. }
             | Output::Picture

@@ -20,7 +20,7 @@ pub(crate) fn names(checked: &Checked) -> Vec<String> {
         Output::Picture => of_surfaces(".png"),
         Output::Report => one("report.html"),
         Output::Laws { .. } => one("impacts.csv"),
-        Output::Energy | Output::Checkpoint => Vec::new(),
+        Output::Energy => Vec::new(),
     });
     [one("summary.json"), one("view.html")].concat().into_iter().chain(asked).collect()
 }

@@ -102,7 +102,7 @@ pub enum Output {
     Picture,
     /// The energy ledger, in the summary.
     Energy,
-    /// `report.html`.
+    /// `report.html`: picture and numbers on one page; `abrade view` makes the page in 3D.
     Report,
     /// `impacts.csv`: every impact with the volume that it displaced, and beside it the volumes that
     /// closed-form laws of erosion give for its mass, speed and angle at the touch; their sums in the
@@ -120,8 +120,6 @@ pub enum Output {
         #[serde(default)]
         given: BTreeMap<String, f64>,
     },
-    /// A file from which the run can be resumed; not available yet.
-    Checkpoint,
 }
 
 /// Format of a mesh file.
