@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use abrade_study::adhesive::{self, MapFile};
 
-use crate::arguments::{AdhesiveRunArguments, PartArguments, SweepArguments};
+use crate::arguments::{AdhesiveRunArguments, MapArguments, PartArguments};
 use crate::failure::{Failure, Rest};
 use crate::progress::Bar;
 use crate::study::failure;
@@ -13,8 +13,8 @@ use crate::{earlier, interrupt, kind, output_folder, say};
 
 /// Runs a scene of two asperities and says what became of them.
 pub(crate) fn run(arguments: &AdhesiveRunArguments) -> Result<(), Failure> {
-    let file = kind::asperities(&arguments.scene.scene, &arguments.scene.sets)?;
-    let folder = output_folder::chosen(arguments.out.as_deref(), &file.name);
+    let file = kind::asperities(&arguments.scene, &arguments.sets)?;
+    let folder = output_folder::chosen(arguments.out.as_deref(), &arguments.scene);
     earlier::make_way_for_run(&folder)?;
     output_folder::make(&folder)?;
     let stop = interrupt::flag();
@@ -51,11 +51,9 @@ struct Opened {
 }
 
 /// Makes a map, or the part of it that is asked for.
-pub(crate) fn map(
-    SweepArguments { file: arguments, part }: &SweepArguments,
-) -> Result<(), Failure> {
-    let file = kind::map(&arguments.study, &arguments.sets)?;
-    let out = arguments.begin(&file.name)?;
+pub(crate) fn map(MapArguments { map, sets, place, part }: &MapArguments) -> Result<(), Failure> {
+    let file = kind::map(map, sets)?;
+    let out = place.begin(map)?;
     let opened = Opened { file, out };
     if part.list {
         return opened.list();

@@ -1,6 +1,6 @@
 //! What the command line says.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -70,7 +70,7 @@ pub(crate) struct RunArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
     /// Folder for the results; a run that is there is replaced, files of anything else are refused
-    /// [default: runs/<scene name>].
+    /// [default: runs/<name of the file without .ron>].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Floating-point numbers of the engine.
@@ -102,16 +102,24 @@ pub(crate) enum StudyCommand {
     Erosion(FileArguments),
 }
 
-/// The file of a study or a map, and where it goes.
+/// The file of a study of erosion, its changes, and where its results go.
 #[derive(Args)]
 pub(crate) struct FileArguments {
-    /// Study or map file (RON).
+    /// Study file (RON).
     pub(crate) study: PathBuf,
-    /// Change a value of the file, as in samples.most=256 or bodies.overlap=0.3; may be repeated.
+    /// Change a value of the study, as in samples.most=256 or density="2650 kg/m3"; may be
+    /// repeated.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub(crate) sets: Vec<String>,
+    #[command(flatten)]
+    pub(crate) place: PlaceArguments,
+}
+
+/// Where the cases of a study or a map go, and on how many threads they are made.
+#[derive(Args)]
+pub(crate) struct PlaceArguments {
     /// Folder for the results; cases that are there are kept, tables are replaced, files of anything else of
-    /// the same names are refused [default: runs/<its name>].
+    /// the same names are refused [default: runs/<name of the file without .ron>].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Threads [default: one per core].
@@ -119,19 +127,19 @@ pub(crate) struct FileArguments {
     pub(crate) jobs: Option<u16>,
 }
 
-impl FileArguments {
-    /// Sets the threads; returns the folder for the results of what the file calls `name`.
-    pub(crate) fn begin(&self, name: &str) -> Result<PathBuf, Failure> {
+impl PlaceArguments {
+    /// Sets the threads; returns the folder for the results of the file at `path`.
+    pub(crate) fn begin(&self, path: &Path) -> Result<PathBuf, Failure> {
         if let Some(jobs) = self.jobs {
             let pool =
                 rayon::ThreadPoolBuilder::new().num_threads(usize::from(jobs)).build_global();
             pool.context("no threads").map_err(Failure::Run)?;
         }
-        Ok(output_folder::chosen(self.out.as_deref(), name))
+        Ok(output_folder::chosen(self.out.as_deref(), path))
     }
 }
 
-/// Arguments of `sweep` and of `adhesive map`: a file, and which part of it is made.
+/// Arguments of `sweep`: a study, and which part of it is made.
 #[derive(Args)]
 pub(crate) struct SweepArguments {
     #[command(flatten)]
@@ -172,7 +180,7 @@ impl PartArguments {
         if let Some(case) = self.case {
             if !cases.iter().any(|other| number(other) == case) {
                 let all = cases.len();
-                let error = anyhow::anyhow!("there is no case {case}: the study has {all}, from 0");
+                let error = anyhow::anyhow!("there is no case {case}: there are {all}, from 0");
                 return Err(Failure::Input(error));
             }
             cases.retain(|other| number(other) == case);
@@ -196,21 +204,39 @@ pub(crate) enum AdhesiveCommand {
     Run(AdhesiveRunArguments),
     /// Make a map: many collisions over ratios of strength and adhesion, and where grinding begins. Goes on
     /// where it was broken off.
-    Map(SweepArguments),
+    Map(MapArguments),
 }
 
 /// Arguments of `adhesive run`.
 #[derive(Args)]
 pub(crate) struct AdhesiveRunArguments {
-    #[command(flatten)]
-    pub(crate) scene: SceneArguments,
+    /// Scene file of two asperities (RON).
+    pub(crate) scene: PathBuf,
+    /// Change a value of the scene, as in bodies.overlap=0.3 or solid.adhesion="200 MPa"; may be
+    /// repeated.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub(crate) sets: Vec<String>,
     /// Folder for the results; a run that is there is replaced, files of anything else are refused
-    /// [default: runs/<scene name>].
+    /// [default: runs/<name of the file without .ron>].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Print the summary file's content, and nothing else.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// Arguments of `adhesive map`: a map, and which part of it is made.
+#[derive(Args)]
+pub(crate) struct MapArguments {
+    /// Map file (RON).
+    pub(crate) map: PathBuf,
+    /// Change a value of the map, as in bodies.overlap=0.3 or gaps="[1.2, 1.5]"; may be repeated.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub(crate) sets: Vec<String>,
+    #[command(flatten)]
+    pub(crate) place: PlaceArguments,
+    #[command(flatten)]
+    pub(crate) part: PartArguments,
 }
 
 /// Arguments of `study convergence`.
@@ -219,7 +245,7 @@ pub(crate) struct ConvergenceArguments {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
     /// Folder for the results; a study that is there is replaced, files of anything else of the same names
-    /// are refused [default: runs/<scene name>, convergence].
+    /// are refused [default: runs/<name of the file without .ron>_convergence].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// What to vary; may be repeated [default: everything].
@@ -292,7 +318,8 @@ pub(crate) struct LawsArguments {
     /// as in angle="10 deg, 20 deg".
     #[arg(value_name = "NAME=VALUE")]
     pub(crate) given: Vec<String>,
-    /// Tell formula, constants, status and source in the place of a value.
+    /// Tell formula, constants, status and source in the place of a value; without a name, of all
+    /// laws.
     #[arg(long, conflicts_with = "csv")]
     pub(crate) list: bool,
     /// Print the value as a table with commas.

@@ -44,7 +44,7 @@ pub(crate) fn erosion(arguments: &FileArguments) -> Result<(), Failure> {
 pub(crate) fn open(arguments: &FileArguments) -> Result<Opened, Failure> {
     let file = kind::erosion(&arguments.study, &arguments.sets)?;
     let beside = arguments.study.parent().unwrap_or(Path::new("")).to_owned();
-    let out = arguments.begin(&file.name)?;
+    let out = arguments.place.begin(&arguments.study)?;
     Ok(Opened { file, beside, out })
 }
 

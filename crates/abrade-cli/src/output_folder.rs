@@ -7,12 +7,23 @@ use anyhow::Context;
 
 use crate::failure::Failure;
 
-/// Where the results of the scene called `name` go.
-pub(crate) fn chosen(out: Option<&Path>, name: &str) -> PathBuf {
-    match out {
-        Some(out) => out.to_owned(),
-        None => Path::new("runs").join(name),
+/// Folder in which results lie that nobody gave a place.
+pub(crate) const RUNS: &str = "runs";
+
+/// Where the results of the file at `path` go: `runs/<its name without the ending>` unless `out`
+/// says.
+pub(crate) fn chosen(out: Option<&Path>, path: &Path) -> PathBuf {
+    chosen_for(out, path, "")
+}
+
+/// The same, where `what` is done with a file of which others make something else.
+pub(crate) fn chosen_for(out: Option<&Path>, path: &Path, what: &str) -> PathBuf {
+    if let Some(out) = out {
+        return out.to_owned();
     }
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(what);
+    Path::new(RUNS).join(name)
 }
 
 /// Makes `folder` and finds out whether it can be written to. Other processes may do the same.

@@ -10,7 +10,7 @@ use crate::{digest, earlier, interrupt, kind, output_folder, say};
 /// Loads and checks the scene, makes sure of its folder, runs it and says what came of it.
 pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let checked = kind::scene(&arguments.scene.scene, &arguments.scene.sets)?;
-    let folder = output_folder::chosen(arguments.out.as_deref(), &checked.scene.name);
+    let folder = output_folder::chosen(arguments.out.as_deref(), &arguments.scene.scene);
     output_folder::probe(&folder)?;
     earlier::make_way_for_run(&folder)?;
     let stop = interrupt::flag();

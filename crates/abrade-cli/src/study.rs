@@ -11,9 +11,8 @@ use crate::{earlier, interrupt, kind, output_folder, say};
 /// Runs the scene at ladders of settings and says what came of it.
 pub(crate) fn convergence(arguments: &ConvergenceArguments) -> Result<(), Failure> {
     let scene = &arguments.scene;
-    let checked = kind::scene(&scene.scene, &scene.sets)?;
-    let name = format!("{}, convergence", checked.scene.name);
-    let folder = output_folder::chosen(arguments.out.as_deref(), &name);
+    kind::scene(&scene.scene, &scene.sets)?;
+    let folder = output_folder::chosen_for(arguments.out.as_deref(), &scene.scene, "_convergence");
     output_folder::probe(&folder)?;
     earlier::make_way_for_convergence(&folder)?;
     let plan = Plan {

@@ -1,5 +1,7 @@
 //! `abrade view`: a page of a finished run.
 
+use std::path::Path;
+
 use abrade_report::quantity_text::{count, memory};
 use abrade_study::adhesive::PICTURE;
 use abrade_view::{Page, ViewError};
@@ -16,15 +18,15 @@ const LARGE: usize = 50_000_000;
 pub(crate) fn view(arguments: &ViewArguments) -> Result<(), Failure> {
     if let Err(error) = arguments.folder.metadata() {
         let fault = abrade_scene::unread(&arguments.folder, &error);
-        let place = output_folder::chosen(None, &arguments.folder.to_string_lossy());
-        let hint = match place.is_dir() {
+        let place = Path::new(output_folder::RUNS).join(&arguments.folder);
+        return Err(Failure::Input(match place.is_dir() {
             true => {
-                let joint = if fault.ends_with('?') { " Its" } else { "; its" };
-                format!("{joint} run is in `{}`", place.display())
+                // What else has such a name, as the scene, was not meant.
+                let fault = fault.split("; did you mean").next().unwrap_or(&fault);
+                anyhow!("{fault}; its run is in `{}`", place.display())
             }
-            false => String::new(),
-        };
-        return Err(Failure::Input(anyhow!("{fault}{hint}")));
+            false => anyhow!(fault),
+        }));
     }
     if arguments.folder.join(PICTURE).exists() {
         return Err(Failure::Input(anyhow!(

@@ -164,11 +164,9 @@ impl Checker<'_> {
         self.ranges(&ScenePath::default(), [vector(field, values)]);
     }
 
-    /// The name becomes a folder's.
     fn check_name(&mut self) {
-        if let Some(fault) = document::folder_name_fault(&self.scene.name) {
-            let path = ScenePath::of(["name"]);
-            self.refuse(&path, "`name` cannot be the name of a folder".into(), fault);
+        if let Some(fault) = document::name_fault(&self.scene.name) {
+            self.refuse(&ScenePath::of(["name"]), "`name` names nothing".into(), fault);
         }
     }
 

@@ -112,11 +112,10 @@ pub fn file_text(path: &Path, kind: &str) -> Result<String, SceneError> {
     })
 }
 
-/// What is wrong with a `name` that becomes a folder's.
-pub fn folder_name_fault(name: &str) -> Option<&'static str> {
-    let forbidden = |c: char| matches!(c, '/' | '\\') || c.is_control();
-    let fault = name.trim().is_empty() || name.starts_with('.') || name.contains(forbidden);
-    fault.then_some("must name a folder: not empty, no leading `.`, no `/` or `\\`")
+/// What is wrong with a `name` that is the title of results.
+pub fn name_fault(name: &str) -> Option<&'static str> {
+    let fault = name.trim().is_empty() || name.contains(char::is_control);
+    fault.then_some("must be a line of text")
 }
 
 /// The problems of a text in its order.

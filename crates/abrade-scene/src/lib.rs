@@ -39,7 +39,7 @@ mod unread;
 pub use build::{BuildError, Built, BuiltSurface, StandIn};
 pub use carrier::BuiltCarrier;
 pub use check::Checked;
-pub use document::{Document, FileKind, file_text, folder_name_fault};
+pub use document::{Document, FileKind, file_text, name_fault};
 pub use grain::{Fit, GrainError, GrainSize, MadeGrain};
 pub use led_path::LedPath;
 pub use load::{load, load_text};

@@ -48,7 +48,7 @@ pub const VERSION: u32 = 1;
 pub struct Scene {
     /// Version of the file's form; this one is 1.
     pub version: u32,
-    /// What the scene is called; also the name of its results folder.
+    /// What the scene is called: the title of its results.
     pub name: String,
     /// Acceleration of gravity, in world axes [m/s2].
     #[serde(default, deserialize_with = "vectors::acceleration3")]

@@ -22,7 +22,7 @@ fn a_collision_leaves_its_files_and_says_what_became_of_the_asperities() {
     assert_eq!((&summary["complete"], &summary["elements"]), (&true.into(), &3586.into()));
     assert_eq!(summary["mode"], "slipping");
     assert!(summary["energy"]["drive_J_m"].as_f64().unwrap() > 0.0);
-    let place = folder.0.join("runs/brittle");
+    let place = folder.0.join("runs/bodies");
     let mut names: Vec<String> = std::fs::read_dir(&place)
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
@@ -105,7 +105,7 @@ study.ron: two grains: erosion study, 2 cases
         told += &folder.abrade(&["adhesive", "run", command]).err;
     }
     assert_eq!(said.err, told + "error: 3 of 4 files cannot be used\n");
-    assert!(!folder.0.join("runs/brittle/summary.json").exists());
+    assert!(!folder.0.join("runs/bodies/summary.json").exists());
 }
 
 /// Fails for a file of names that several kinds have that is not taken for the one by which it is sound, and for

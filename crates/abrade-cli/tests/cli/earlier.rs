@@ -6,7 +6,7 @@ use super::Folder;
 #[test]
 fn a_run_that_replaces_another_one_says_so() {
     let folder = Folder::new("earlier");
-    let place = "runs/Oblique impact of a ball";
+    let place = "runs/scene";
     let set = ["--set", "outputs=[History(every: \"1 us\")]"];
     let run = || folder.abrade(&[&["run", "scene.ron"], &set[..]].concat());
     let first = run();

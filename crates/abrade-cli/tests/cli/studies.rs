@@ -11,7 +11,7 @@ fn a_study_prints_its_table_and_leaves_its_files() {
     for words in ["Oblique impact of a ball\n", "accuracy; error ~ ", "for 1 %: ", "study.csv"] {
         assert!(said.out.contains(words), "{}", said.out);
     }
-    let place = folder.0.join("runs/Oblique impact of a ball, convergence");
+    let place = folder.0.join("runs/scene_convergence");
     let table = std::fs::read_to_string(place.join("study.csv")).unwrap();
     assert!(table.lines().count() > 3 && table.contains(",wall_s,"), "{table}");
     let picture = std::fs::read(place.join("study.png")).unwrap();
@@ -53,13 +53,13 @@ fn an_erosion_study_is_made_whole_or_in_parts() {
     folder.write("study.ron", EROSION);
     let said = folder.abrade(&["study", "erosion", "study.ron"]);
     assert_eq!(said.code, Some(0), "{}", said.err);
-    for words in ["two grains\n", "cube at 98 m/s", "30         4", "runs/two grains"] {
+    for words in ["two grains\n", "cube at 98 m/s", "30         4", "runs/study"] {
         assert!(said.out.contains(words), "{words}: {}", said.out);
     }
     let table = |place: &str| {
         std::fs::read_to_string(folder.0.join(place).join("cases.csv")).expect("a table")
     };
-    let whole = table("runs/two grains");
+    let whole = table("runs/study");
     let sweep = |more: &[&str]| folder.abrade(&[&["sweep", "study.ron"], more].concat());
     let none = sweep(&["--out", "a", "--merge"]);
     assert_eq!(none.code, Some(1), "{}", none.out);
@@ -106,7 +106,7 @@ fn a_wrong_study_is_shown_at_its_place() {
             ],
             "made of spheres",
         ),
-        (&["sweep", "study.ron", "--case", "2"], "the study has 2, from 0"),
+        (&["sweep", "study.ron", "--case", "2"], "there are 2, from 0"),
         (&["sweep", "study.ron", "--shard", "2/2"], "I from 0 to N - 1"),
     ];
     for (arguments, told) in cases {

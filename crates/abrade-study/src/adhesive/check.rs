@@ -4,7 +4,7 @@ use std::path::Path;
 
 use abrade::ParameterError;
 use abrade_adhesive::{Asperities, Profile, Solid};
-use abrade_scene::{Document, FileKind, SceneError, file_text, folder_name_fault, number_pairs};
+use abrade_scene::{Document, FileKind, SceneError, file_text, name_fault, number_pairs};
 
 use super::file::{MapFile, SceneFile, VERSION};
 
@@ -122,8 +122,8 @@ fn check_list(
 }
 
 fn check_name<T>(document: &mut Document<T>, name: &str) {
-    if let Some(fault) = folder_name_fault(name) {
-        document.refuse(&["name"], "`name` cannot be the name of a folder", fault);
+    if let Some(fault) = name_fault(name) {
+        document.refuse(&["name"], "`name` names nothing", fault);
     }
 }
 

@@ -14,7 +14,7 @@ pub const VERSION: u32 = 1;
 pub struct SceneFile {
     /// Version of the file's form; this one is 1.
     pub version: u32,
-    /// What the scene is called; also the name of its results folder.
+    /// What the scene is called: the title of its results.
     pub name: String,
     /// What both bodies consist of (default: the paper's reference values).
     #[serde(default)]
@@ -40,7 +40,7 @@ pub struct SceneFile {
 pub struct MapFile {
     /// Version of the file's form; this one is 1.
     pub version: u32,
-    /// What the map is called; also the name of its results folder.
+    /// What the map is called: the title of its results.
     pub name: String,
     /// What both bodies consist of (default: the paper's reference values).
     #[serde(default)]

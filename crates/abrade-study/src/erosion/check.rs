@@ -5,7 +5,7 @@ use std::path::Path;
 use abrade::{NODE_LIMIT, ParameterError, SurfaceError};
 use abrade_report::quantity_text::digits;
 use abrade_scene::scene::Form;
-use abrade_scene::{Document, FileKind, SceneError, file_text, folder_name_fault};
+use abrade_scene::{Document, FileKind, SceneError, file_text, name_fault};
 
 use super::file::{Plate, StudyFile, VERSION};
 
@@ -142,7 +142,7 @@ fn check_ranges(document: &mut Document<StudyFile>) {
             }
         }
     }
-    if let Some(fault) = folder_name_fault(&file.name) {
-        document.refuse(&["name"], "`name` cannot be the name of a folder", fault);
+    if let Some(fault) = name_fault(&file.name) {
+        document.refuse(&["name"], "`name` names nothing", fault);
     }
 }

@@ -17,7 +17,7 @@ pub const VERSION: u32 = 1;
 pub struct StudyFile {
     /// Version of the file's form; this one is 1.
     pub version: u32,
-    /// What the study is called; also the name of its results folder.
+    /// What the study is called: the title of its results.
     pub name: String,
     /// What is struck.
     pub target: Target,
