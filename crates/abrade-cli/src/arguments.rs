@@ -312,7 +312,7 @@ impl From<Precision> for abrade_scene::Precision {
 pub(crate) struct LawsArguments {
     #[command(subcommand)]
     pub(crate) command: Option<LawsCommand>,
-    /// Name of the law; without one, all are listed.
+    /// Name of the law; without one, their names and titles are listed.
     pub(crate) name: Option<String>,
     /// Its conditions and constants, as in angle="30 deg"; bare numbers are in SI. One may be a list,
     /// as in angle="10 deg, 20 deg".
@@ -400,9 +400,10 @@ pub(crate) enum ConvertFormat {
 /// Arguments of `schema`.
 #[derive(Args)]
 pub(crate) struct SchemaArguments {
-    /// Print the field reference in text: path, kind, unit, default, meaning.
-    #[arg(long)]
-    pub(crate) fields: bool,
+    /// Print the field reference in text: path, kind, unit, default, meaning; with a PREFIX, of the
+    /// paths that begin with it, as in bodies.ball.motion.
+    #[arg(long, value_name = "PREFIX")]
+    pub(crate) fields: Option<Option<String>>,
     /// The form of an erosion study in the place of that of a scene.
     #[arg(long, group = "form")]
     pub(crate) study: bool,

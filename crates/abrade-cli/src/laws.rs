@@ -21,8 +21,17 @@ pub(crate) fn laws(arguments: &LawsArguments) -> Result<(), Failure> {
         (Some(LawsCommand::Contact(arguments)), _) => contact::contact(arguments),
         (None, Some(name)) if arguments.list => say(&told(find("law", name, all())?)),
         (None, Some(name)) => evaluate(find("law", name, all())?, arguments),
-        (None, None) => say(&list(all())),
+        (None, None) if arguments.list => say(&list(all())),
+        (None, None) => say(&titles(all())),
     }
+}
+
+/// A name and a title a line, and how to learn more.
+fn titles(laws: impl Iterator<Item = &'static Law>) -> String {
+    let lines: String = laws.map(|law| format!("{:<24} {}\n", law.name, law.title)).collect();
+    lines
+        + "\nabrade laws NAME --list: formula, constants, status and source; abrade laws NAME NAME=VALUE ..: \
+           its value\n"
 }
 
 fn list(laws: impl Iterator<Item = &'static Law>) -> String {
@@ -97,10 +106,16 @@ fn evaluate(law: &Law, arguments: &LawsArguments) -> Result<(), Failure> {
     say(&table(law, list, &results, arguments.csv))
 }
 
+/// `value` as a person reads it; a table with commas has all digits.
+fn four_digits(value: f64) -> String {
+    let rounded = format!("{value:.3e}").parse().unwrap_or(value);
+    format!("{rounded:e}")
+}
+
 fn table(law: &Law, list: Option<&Values<'_>>, results: &[f64], csv: bool) -> String {
     let heading = format!("{} [{}]", law.output.name, law.output.unit);
     match (list, csv) {
-        (None, false) => format!("{heading} = {:e}\n", results[0]),
+        (None, false) => format!("{heading} = {}\n", four_digits(results[0])),
         (None, true) => format!("{heading}\n{:e}\n", results[0]),
         (Some(Values { parameter, numbers, .. }), true) => {
             let rows = numbers.iter().zip(results).map(|(at, value)| format!("{at},{value:e}\n"));
@@ -111,7 +126,10 @@ fn table(law: &Law, list: Option<&Values<'_>>, results: &[f64], csv: bool) -> St
             format!("{name},{heading}\n{}", rows.collect::<String>())
         }
         (Some(Values { parameter, texts, .. }), false) => {
-            let rows = texts.iter().zip(results).map(|(at, value)| format!("{at:<12} {value:e}\n"));
+            let rows = texts
+                .iter()
+                .zip(results)
+                .map(|(at, value)| format!("{at:<12} {}\n", four_digits(*value)));
             format!("{:<12} {heading}\n{}", parameter.name, rows.collect::<String>())
         }
     }

@@ -1,7 +1,7 @@
 //! `abrade schema`: the form of a scene file, or of a study's.
 
 use abrade_scene::Field;
-use anyhow::Context;
+use anyhow::{Context, anyhow};
 
 use crate::arguments::SchemaArguments;
 use crate::failure::Failure;
@@ -15,13 +15,41 @@ pub(crate) fn schema(arguments: &SchemaArguments) -> Result<(), Failure> {
         SchemaArguments { map: true, .. } => ("map", abrade_study::adhesive::map_schema()),
         _ => ("scene", abrade_scene::schema()),
     };
-    if arguments.fields {
-        return say(&fields(what, &abrade_scene::fields_of(&schema)));
+    match &arguments.fields {
+        Some(None) => return say(&fields(what, &abrade_scene::fields_of(&schema))),
+        Some(Some(prefix)) => {
+            let mut part = abrade_scene::fields_of(&schema);
+            part.retain(|field| begins(&field.path, prefix));
+            if part.is_empty() {
+                let message = format!("no field of a {what} begins with `{prefix}`");
+                return Err(Failure::Input(anyhow!(message)));
+            }
+            return say(&fields(what, &part));
+        }
+        None => {}
     }
     let text = serde_json::to_string_pretty(&schema)
         .context("the schema cannot be printed")
         .map_err(Failure::Run)?;
     say(&(text + "\n"))
+}
+
+/// Whether `path` begins with `prefix`, in which any word may stand for a `<name>` or an `<i>`.
+fn begins(path: &str, prefix: &str) -> bool {
+    let mut parts = path.split('.');
+    let mut wanted = prefix.split('.').peekable();
+    while let Some(want) = wanted.next() {
+        let Some(part) = parts.next() else { return false };
+        let is_any = part.starts_with('<') && !want.is_empty();
+        let fits = match wanted.peek() {
+            Some(_) => part == want,
+            None => part.starts_with(want),
+        };
+        if !(is_any || fits) {
+            return false;
+        }
+    }
+    true
 }
 
 fn fields(what: &str, fields: &[Field]) -> String {

@@ -60,6 +60,65 @@ fn schema_describes_every_field() {
     assert!(said.out.contains(stop), "{}", said.out);
 }
 
+/// Fails for a part with fields of others, and for a name of one's own that finds nothing.
+#[test]
+fn a_part_of_the_fields_can_be_asked_for() {
+    let folder = Folder::new("schema part");
+    let part = |prefix: &str| folder.abrade(&["schema", "--fields", prefix]);
+    let paths = |said: &str| -> Vec<String> {
+        let lines = said.lines().skip(3).filter(|line| !line.is_empty() && !line.starts_with(' '));
+        lines.map(str::to_owned).collect()
+    };
+    let run = paths(&part("run").out);
+    assert!(run.len() > 5 && run.iter().all(|path| path.starts_with("run")), "{run:?}");
+    let speed = paths(&part("bodies.ball.motion.speed").out);
+    assert!(!speed.is_empty(), "no field");
+    assert!(speed.iter().all(|path| path.starts_with("bodies.<name>.motion.speed")), "{speed:?}");
+    let whole = folder.abrade(&["schema", "--fields"]).out;
+    assert_eq!(paths(&part("bodies.<name>").out), paths(&part("bodies.b").out));
+    assert!(paths(&whole).len() > 200, "{}", whole.len());
+    let none = part("bodys");
+    assert_eq!(
+        (none.code, none.err.as_str()),
+        (Some(2), "error: no field of a scene begins with `bodys`\n")
+    );
+    let study = folder.abrade(&["schema", "--study", "--fields", "samples.most"]);
+    assert_eq!(paths(&study.out).len(), 1, "{}", study.out);
+}
+
+/// Fails for an example of another command's file, which would be refused.
+#[test]
+fn the_examples_of_help_are_of_the_files_that_a_command_reads() {
+    let folder = Folder::new("help");
+    folder.write("bodies.ron", "(version: 1, name: \"brittle\")");
+    folder.write("map.ron", super::adhesive::MAP);
+    folder.write("study.ron", super::studies::EROSION);
+    for (command, file, examples) in [
+        (&["run"][..], "scene.ron", &["bodies.ball.motion.speed=\"30 m/s\""][..]),
+        (&["study", "convergence"], "scene.ron", &["bodies.ball.motion.speed=\"30 m/s\""]),
+        (&["study", "erosion"], "study.ron", &["samples.most=256", "density=\"2650 kg/m3\""]),
+        (&["sweep"], "study.ron", &["samples.most=256", "density=\"2650 kg/m3\""]),
+        (&["adhesive", "run"], "bodies.ron", &["bodies.overlap=0.3", "solid.adhesion=\"200 MPa\""]),
+        (&["adhesive", "map"], "map.ron", &["bodies.overlap=0.3", "gaps=\"[1.2, 1.5]\""]),
+    ] {
+        let help = folder.abrade(&[command, &["--help"]].concat()).out;
+        let words = help.split_whitespace().collect::<Vec<_>>().join(" ");
+        let usage = words.split_once("Usage:").expect("usage").1;
+        assert_eq!(usage.contains("<MAP>"), command.contains(&"map"), "{help}");
+        assert!(words.contains("default: runs/<name of the file without .ron>"), "{help}");
+        let given = words.split_once("as in ").expect("an example").1;
+        let given = given.split_once(';').expect("its end").0;
+        assert_eq!(given, examples.join(" or "), "{command:?}");
+        for example in examples {
+            // As a shell hands them over.
+            let (path, value) = example.split_once('=').expect("PATH=VALUE");
+            let set = format!("{path}={}", value.trim_matches('"'));
+            let said = folder.abrade(&["check", file, "--set", &set]);
+            assert_eq!(said.code, Some(0), "{example}: {}", said.err);
+        }
+    }
+}
+
 #[test]
 fn wrong_usage_is_bad_input() {
     let folder = Folder::new("usage");

@@ -10,15 +10,33 @@ fn a_law_is_evaluated_where_it_is_asked_for() {
     let given = ["mass=1 mg", "speed=50 m/s", "pressure=2.7 GPa"];
     let finnie =
         |rest: &[&str]| folder.abrade(&[&["laws", "finnie-1960"], &given[..], rest].concat());
-    assert_eq!(finnie(&["angle=30 deg"]).out, "volume [m3] = 5.787037037037038e-14\n");
+    assert_eq!(finnie(&["angle=30 deg"]).out, "volume [m3] = 5.787e-14\n");
     let said = finnie(&["angle=30 deg, 90 deg", "--csv"]);
     let rows: Vec<_> = said.out.lines().collect();
     assert_eq!(rows[..2], ["angle [rad],volume [m3]", "0.5235987755982988,5.787037037037038e-14"]);
     assert_eq!(rows.len(), 3);
-    let said = folder.abrade(&["laws"]);
+    let said = folder.abrade(&["laws", "--list"]);
     for law in ["archard\n", "oka-quartz\n", "status: seen; from memory"] {
         assert!(said.out.contains(law), "{}", said.out);
     }
+}
+
+/// Fails for a list that nobody can look over, and for a law that is not in it.
+#[test]
+fn laws_are_listed_in_a_line_each() {
+    let folder = Folder::new("law titles");
+    let told = folder.abrade(&["laws", "--list"]).out;
+    // Of all that is told of a law, its name alone begins a line.
+    let names: Vec<_> =
+        told.lines().filter(|line| !line.is_empty() && !line.starts_with(' ')).collect();
+    let titles = folder.abrade(&["laws"]).out;
+    let lines: Vec<_> = titles.lines().take_while(|line| !line.is_empty()).collect();
+    let firsts: Vec<_> = lines.iter().filter_map(|line| line.split_whitespace().next()).collect();
+    assert_eq!(firsts, names);
+    assert!(
+        titles.ends_with("its value\n") && titles.contains("abrade laws NAME --list"),
+        "{titles}"
+    );
 }
 
 #[test]
