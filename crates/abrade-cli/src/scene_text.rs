@@ -14,14 +14,16 @@ pub(crate) fn rows(checked: &Checked) -> String {
     let is_copy = |name: &String| checked.copied.values().any(|names| names.contains(name));
     for (name, surface) in scene.surfaces.iter().filter(|(name, _)| !is_copy(name)) {
         if let Some(size) = size.surfaces.get(name) {
-            rows.push(row("surface", format!("{name}: {}", surface_text(surface, size))));
+            rows.push(row(
+                "surface",
+                format!("{name}: {}", surface_text(surface, size, checked.stiffness(name))),
+            ));
         }
     }
     for (name, names) in &checked.copied {
-        let first = names.first();
-        let first = first.and_then(|first| scene.surfaces.get(first).zip(size.surfaces.get(first)));
-        if let Some((surface, size)) = first {
-            let each = surface_text(surface, size);
+        let Some(first) = names.first() else { continue };
+        if let Some((surface, size)) = scene.surfaces.get(first).zip(size.surfaces.get(first)) {
+            let each = surface_text(surface, size, checked.stiffness(first));
             rows.push(row(
                 "surface",
                 format!("{name}: {}, each {each}", count(names.len(), "copy", "copies")),
@@ -53,7 +55,7 @@ pub(crate) fn rows(checked: &Checked) -> String {
     let accuracy = digits(run.accuracy);
     rows.push(row("run", format!("until {stop}, {:?}, accuracy {accuracy}", run.resolve)));
     rows.push(row("memory", format!("{} for the nodes", memory(size.memory))));
-    rows.push(row("time", format!("roughly {}", time(size.seconds))));
+    rows.push(row("time", duration(size.seconds).to_owned()));
     rows.extend(checked.notes.iter().map(|note| row("note", note.clone())));
     rows.concat()
 }
@@ -66,7 +68,7 @@ pub(crate) fn line(checked: &Checked) -> String {
         count(scene.surfaces.len(), "surface", "surfaces"),
         count(nodes, "node", "nodes"),
         count(scene.bodies.len(), "body", "bodies"),
-        format!("roughly {}", time(size.seconds)),
+        duration(size.seconds).to_owned(),
     ];
     if !checked.notes.is_empty() {
         parts.push(count(checked.notes.len(), "note", "notes"));
@@ -78,21 +80,21 @@ fn row(name: &str, text: String) -> String {
     format!("{name:<8} {text}\n")
 }
 
-fn surface_text(surface: &SceneSurface, size: &SurfaceSize) -> String {
+fn surface_text(surface: &SceneSurface, size: &SurfaceSize, k_w: Option<[f64; 2]>) -> String {
     let flow = match surface.flow {
         FlowLaw::CapozzaHanley { lateral: Lateral::Projected } => "CapozzaHanley(Projected)",
         FlowLaw::CapozzaHanley { lateral: Lateral::Eq5 } => "CapozzaHanley(Eq5)",
         FlowLaw::NormalPressure {} => "NormalPressure",
     };
     let elastic = match surface.elastic {
-        ElasticLaw::Foundation { .. } => "Foundation".to_owned(),
+        ElasticLaw::Foundation { .. } => format!("Foundation{}", stiffness_text(k_w)),
         ElasticLaw::HertzNodes { convention, .. } => format!("HertzNodes({convention:?})"),
         ElasticLaw::Rigid => "Rigid".to_owned(),
     };
     let removal = match surface.removal {
-        Removal::All => "all removed",
-        Removal::Fraction { .. } => "a fraction removed",
-        Removal::AttackAngle { .. } => "removed by attack angle",
+        Removal::All => "all displaced is debris",
+        Removal::Fraction { .. } => "a fraction is debris",
+        Removal::AttackAngle { .. } => "debris by attack angle",
     };
     let layout = match size.columns_rows {
         Some([columns, rows]) => format!("{columns} x {rows}, {} apart", length(size.pitch)),
@@ -127,6 +129,26 @@ fn surface_text(surface: &SceneSurface, size: &SurfaceSize) -> String {
     let (nodes, material) = (size.nodes, &surface.material);
     let nodes = count(nodes, "node", "nodes");
     format!("{nodes} ({layout}); {flow}, {elastic}, {removal}; {material}{motion}")
+}
+
+/// What bodies find on a surface of `Foundation`, from the softest to the stiffest.
+fn stiffness_text(k_w: Option<[f64; 2]>) -> String {
+    let Some(range) = k_w else { return String::new() };
+    match range.map(digits) {
+        [least, largest] if least == largest => format!(" of k_w {least} Pa/m"),
+        [least, largest] => format!(" of k_w {least} to {largest} Pa/m"),
+    }
+}
+
+/// About how long a run takes that was estimated at `seconds` [s]: no more than an order of
+/// magnitude is known.
+fn duration(seconds: f64) -> &'static str {
+    match seconds {
+        s if s < 0.3 => "a second or less",
+        s if s < 20.0 => "seconds",
+        s if s < 1200.0 => "minutes",
+        _ => "an hour or longer",
+    }
 }
 
 fn norm(v: &[f64; 3]) -> f64 {

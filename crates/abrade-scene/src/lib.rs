@@ -33,8 +33,10 @@ mod set;
 mod size;
 mod solid;
 mod spans;
+mod stiffness;
 mod stream;
 mod unread;
+mod work;
 
 pub use build::{BuildError, Built, BuiltSurface, StandIn};
 pub use carrier::BuiltCarrier;

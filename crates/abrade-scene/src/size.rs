@@ -1,14 +1,12 @@
-//! How large a scene is: nodes, memory, and about how long it runs. Orders of magnitude, from the
-//! energy of each body and the stated costs; nothing is built.
+//! How large a scene is: nodes, memory, and about how long it runs. Orders of magnitude, from what
+//! its bodies do and the stated costs; nothing is built.
 
 use std::collections::BTreeMap;
 
-use abrade::{ElasticLaw, HexStrip, Material, TriangleMesh};
+use abrade::{HexStrip, TriangleMesh};
 
 use crate::check::Checked;
 use crate::place;
-use crate::scene::{Motion, SceneBody, SceneSurface, Solution};
-use crate::solid::Solid;
 
 /// Bytes per node: position, normal, area, depth, and its place in the grid.
 const NODE_BYTES: f64 = 90.0;
@@ -20,8 +18,8 @@ const LAY_NODE: f64 = 1e-7;
 const LAY_MESH_NODE: f64 = 3e-5;
 /// Seconds to take a node through the laws once.
 const EVALUATE_NODE: f64 = 3e-7;
-/// Steps of an oblique contact at an accuracy of 3e-3.
-const STEPS_OF_CONTACT: f64 = 40.0;
+/// Seconds of a contact step, beside its nodes.
+const CONTACT_STEP: f64 = 1e-5;
 
 /// Size of a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +28,10 @@ pub struct Size {
     pub surfaces: BTreeMap<String, SurfaceSize>,
     /// Memory of the nodes [bytes].
     pub memory: f64,
-    /// Estimated time of the run, within a factor of ten [s].
+    /// Estimated contact steps of the run; within a factor of ten for the scenes that come with
+    /// abrade.
+    pub steps: f64,
+    /// Estimated time of the run, from its steps and the nodes of each; an order of magnitude [s].
     pub seconds: f64,
 }
 
@@ -83,99 +84,8 @@ impl Checked {
         let surfaces: BTreeMap<_, _> = sized.collect();
         let memory = surfaces.values().map(SurfaceSize::bytes).sum();
         let laying: f64 = surfaces.values().map(SurfaceSize::seconds).sum();
-        let contacts: f64 = self
-            .scene
-            .bodies
-            .iter()
-            .filter_map(|(name, body)| {
-                let (surface_name, surface) = self.met_by(body)?;
-                let material = self.scene.materials.get(&surface.material)?;
-                let contact = Contact {
-                    solid: self.solids.get(name)?,
-                    material,
-                    surface,
-                    size: surfaces.get(surface_name)?,
-                    accuracy: self.scene.run.accuracy,
-                };
-                Some(contact.evaluations(&body.motion) * EVALUATE_NODE)
-            })
-            .sum();
-        Size { memory, seconds: laying + contacts, surfaces }
-    }
-
-    /// The surface that a body is placed on, else the first one.
-    fn met_by(&self, body: &SceneBody) -> Option<(&String, &SceneSurface)> {
-        match body.position.surface() {
-            Some(surface) => self.scene.surfaces.get_key_value(surface),
-            None => self.scene.surfaces.iter().next(),
-        }
-    }
-}
-
-struct Contact<'a> {
-    solid: &'a Solid,
-    material: &'a Material,
-    surface: &'a SceneSurface,
-    size: &'a SurfaceSize,
-    accuracy: f64,
-}
-
-impl Contact<'_> {
-    /// Nodes taken through the laws over the whole motion.
-    fn evaluations(&self, motion: &Motion) -> f64 {
-        match *motion {
-            Motion::Fixed => 0.0,
-            Motion::Impact { speed, angle, .. } => {
-                self.impact(speed * angle.sin(), speed * angle.cos())
-            }
-            Motion::Free { velocity: [x, y, z], .. } => self.impact(z.abs(), x.hypot(y)),
-            Motion::Drive { indent_to, load, speed, distance, ref solution, .. } => {
-                let load = load.unwrap_or(indent_to).max(indent_to);
-                let area = load / self.material.hardness;
-                let nodes = (area / self.size.rest_area).max(1.0);
-                let steps = match solution {
-                    Solution::QuasiStatic { increment } => {
-                        let increment = increment.unwrap_or(0.125 * self.size.pitch);
-                        10.0 * (1.0 + distance / increment)
-                    }
-                    Solution::Dynamic {} => {
-                        let stiffness = self.stiffness() * area;
-                        let frequency = (stiffness / self.solid.inertia.mass).sqrt();
-                        let time = if speed > 0.0 { distance / speed } else { 0.0 };
-                        STEPS_OF_CONTACT + time * frequency / self.step_fraction()
-                    }
-                };
-                nodes * steps
-            }
-        }
-    }
-
-    /// A ball of the body's size that ploughs in until its energy is spent against H.
-    fn impact(&self, down: f64, along: f64) -> f64 {
-        let radius = self.solid.shape.bounding_radius();
-        let hardness = self.material.hardness;
-        let pi = std::f64::consts::PI;
-        let time = (self.solid.inertia.mass / (2.0 * pi * radius * hardness)).sqrt();
-        let (depth, slide) = (down * time, along * time * pi);
-        let contact = (2.0 * radius * depth).sqrt().min(radius);
-        let nodes = ((pi * contact * contact) / self.size.rest_area).max(1.0);
-        let steps = match self.surface.elastic {
-            ElasticLaw::Rigid => (depth + slide) / (0.1 * self.size.pitch) + 1.0,
-            _ => STEPS_OF_CONTACT * 0.1 / self.step_fraction(),
-        };
-        nodes * steps
-    }
-
-    /// Stiffness of the surface per area [Pa/m].
-    fn stiffness(&self) -> f64 {
-        match self.surface.elastic {
-            ElasticLaw::Foundation { stiffness: Some(stiffness) } => stiffness,
-            _ => self.material.hardness / (1e-3 * self.solid.shape.bounding_radius()),
-        }
-    }
-
-    /// Step times frequency that the accuracy asks for (eta).
-    fn step_fraction(&self) -> f64 {
-        (0.1 * (self.accuracy / 3e-3).sqrt()).min(0.7)
+        let work = self.work(&surfaces);
+        let contacts = work.steps * CONTACT_STEP + work.evaluations * EVALUATE_NODE;
+        Size { memory, steps: work.steps, seconds: laying + contacts, surfaces }
     }
 }

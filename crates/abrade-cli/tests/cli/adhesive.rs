@@ -88,7 +88,7 @@ fn check_takes_files_of_every_kind() {
     assert_eq!((said.code, said.err.as_str()), (Some(0), ""));
     assert_eq!(
         said.out,
-        "scene.ron: Oblique impact of a ball: scene, 1 surface, 18480 nodes, 1 body, roughly 2.6 ms
+        "scene.ron: Oblique impact of a ball: scene, 1 surface, 18480 nodes, 1 body, a second or less
 bodies.ron: brittle: two asperities, 3586 elements
 map.ron: small map: map of two asperities, 6 cases
 study.ron: two grains: erosion study, 2 cases

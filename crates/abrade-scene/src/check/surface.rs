@@ -14,6 +14,7 @@ use crate::place;
 use crate::problem::Problem;
 use crate::scene::{Geometry, SceneAdhesion, SceneSurface};
 use crate::spans::ScenePath;
+use crate::stiffness;
 
 impl Checker<'_> {
     /// Checks every surface; returns the meshes of closed ones.
@@ -34,6 +35,8 @@ impl Checker<'_> {
                 Some(Err(trouble)) => self.refuse_closed(&path, name, trouble),
             }
             self.check_laws(&path, surface);
+            let material = self.scene.materials.get(&surface.material);
+            notes.extend(material.and_then(|material| stiffness::note(name, surface, material)));
             let separates = |c: char| matches!(c, '/' | '\\') || c.is_control();
             if self.scene.surfaces.len() > 1 && name.contains(separates) {
                 let message = format!("the surface `{name}` cannot be part of a file's name");

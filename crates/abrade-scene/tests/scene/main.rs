@@ -7,6 +7,7 @@ mod extremes;
 mod led;
 mod moving;
 mod mutations;
+mod size;
 mod words;
 
 use std::path::PathBuf;
