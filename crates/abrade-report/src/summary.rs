@@ -174,6 +174,11 @@ pub struct BodySummary {
     /// Angle of the velocity from the surface [deg]; `None` where the restitution is.
     #[serde(rename = "rebound_angle_deg")]
     pub rebound_angle: Option<f64>,
+    /// Speed away from the surface after over speed towards it before, along the normal of the
+    /// plate at rest that it met first [-]; `None` where the restitution is, and for any other
+    /// surface.
+    #[serde(default)]
+    pub restitution_normal: Option<f64>,
     /// Impulse of the surfaces over the time in contact, force over the way of a driven body, and its last
     /// force where it only indents [N]; zero without a contact.
     #[serde(rename = "mean_force_N")]
@@ -207,7 +212,8 @@ pub struct EnergySummary {
     /// Change made by a tangential history that is not conservative [J].
     #[serde(rename = "history_J")]
     pub history: f64,
-    /// Energy of adhesion [J]: below zero while bodies adhere, zero once they have parted.
+    /// Energy of adhesion [J], counted from the start of the run: falls as bodies come to adhere,
+    /// rises as they part.
     #[serde(rename = "adhesion_J")]
     pub adhesion: f64,
     /// Added by time integration [J].
@@ -332,6 +338,7 @@ impl BodySummary {
             spin: state.spin.into(),
             restitution: None,
             rebound_angle: None,
+            restitution_normal: None,
             mean_force: [0.0; 3],
         }
     }

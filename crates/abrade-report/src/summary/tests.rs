@@ -49,7 +49,7 @@ fn the_keys_are_those_of_the_interface_in_its_order() {
         wear_volume_normal_m3 wear_volume_lateral_m3 wear_volume_archard_m3 removed_volume_m3 chip_volume_m3 \
         max_depth_m worn_nodes touching_nodes peak_normal_force_N indented_area_m2 wear_rate_m2 motion \
         bodies ball position_m rotation_xyzw velocity_m_s spin_rad_s restitution rebound_angle_deg \
-        mean_force_N energy initial_J kinetic_J elastic_J friction_J wear_J damping_J \
+        restitution_normal mean_force_N energy initial_J kinetic_J elastic_J friction_J wear_J damping_J \
         external_work_J history_J adhesion_J numerical_J erosion error_estimate time pitch basis \
         warnings stop laws impacts wear_volume_m3 predicted_m3 dnv";
     assert_eq!(keys(&text), expected.split_whitespace().collect::<Vec<_>>());

@@ -291,6 +291,14 @@ impl Bodies {
         track.landings.iter().any(|(surface, _)| is_led(*surface))
     }
 
+    /// Normal of the plate at rest that the body met first; none for any other surface, and for
+    /// several.
+    pub(crate) fn normal_met(&self, track: &Track) -> Option<Vector3<f64>> {
+        let [(surface, _)] = track.landings[..] else { return None };
+        let is_still = self.solids[surface].is_none() && self.carriers[surface].is_none();
+        is_still.then(|| self.frames[surface] * Vector3::z())
+    }
+
     /// Kinetic energy of the free bodies of surfaces, at the start [J].
     pub(crate) fn carried_at_start(&self) -> f64 {
         self.carriers.iter().flatten().map(|body| body.kinetic_energy(&body.state)).sum()

@@ -118,6 +118,11 @@ fn body(run: &Run<'_>, index: usize, track: &Track) -> BodySummary {
     BodySummary {
         restitution: approach.map(|v| state.velocity.norm() / v.norm()),
         rebound_angle: approach.and(local).map(angle),
+        restitution_normal: approach.and_then(|before| {
+            let normal = run.bodies.normal_met(track)?;
+            let towards = -before.dot(&normal);
+            (towards > 0.0).then(|| state.velocity.dot(&normal) / towards)
+        }),
         mean_force: [force.x, force.y, force.z],
         ..BodySummary::of(&state)
     }
