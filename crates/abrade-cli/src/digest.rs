@@ -3,9 +3,10 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use abrade::Removal;
 use abrade_report::Summary;
-use abrade_report::quantity_text::{count, digits, length, volume};
-use abrade_report::summary::ErosionSummary;
+use abrade_report::quantity_text::{count, digits, energy, force_unit, length, volume};
+use abrade_report::summary::{EnergySummary, ErosionSummary};
 use abrade_scene::Checked;
 use abrade_scene::scene::Output;
 
@@ -47,9 +48,9 @@ fn write_digest(
             surface.worn_nodes,
             count(surface.nodes, "node", "nodes")
         );
-        let removed = volume(surface.removed_volume);
-        if removed != volume(surface.wear_volume) {
-            write!(parts, ", removed {removed}")?;
+        let debris = volume(surface.removed_volume);
+        if debris != volume(surface.wear_volume) {
+            write!(parts, ", debris {debris}")?;
         }
         if surface.chip_volume > 0.0 {
             write!(parts, ", chips {}", volume(surface.chip_volume))?;
@@ -72,9 +73,11 @@ fn write_digest(
     for (name, body) in summary.bodies.iter().filter(|(name, _)| !of_stream(name)) {
         let line = match (body.restitution, body.rebound_angle) {
             (Some(restitution), Some(angle)) => {
-                format!("restitution {restitution:.4}, leaves at {angle:.1} deg")
+                format!(
+                    "leaves with {restitution:.3} of its speed, at {angle:.1} deg from the surface"
+                )
             }
-            (Some(restitution), None) => format!("restitution {restitution:.4}"),
+            (Some(restitution), None) => format!("leaves with {restitution:.3} of its speed"),
             _ => force_text(body.mean_force),
         };
         writeln!(out, "  body    {name:12} {line}")?;
@@ -86,37 +89,19 @@ fn write_digest(
         let mean = struck.iter().sum::<f64>() / left as f64;
         let line = match left {
             0 => format!("{all}, none of which has struck and left"),
-            1 => format!("{all}, 1 has struck and left, restitution {mean:.4}"),
-            _ => format!("{all}, {left} have struck and left, mean restitution {mean:.4}"),
+            1 => format!("{all}, 1 has struck and left, with {mean:.3} of its speed"),
+            _ => format!(
+                "{all}, {left} have struck and left, with {mean:.3} of their speed in the mean"
+            ),
         };
         writeln!(out, "  stream  {name:12} {line}")?;
     }
     if let Some(erosion) = &summary.erosion {
-        writeln!(out, "  erosion {}", erosion_text(erosion))?;
+        let all = checked.scene.surfaces.values().all(|surface| surface.removal == Removal::All);
+        writeln!(out, "  erosion {}", erosion_text(erosion, all))?;
     }
     if let Some(energy) = &summary.energy {
-        let work = match energy.external_work {
-            work if work.abs() <= NOTHING * (energy.initial + energy.wear) => String::new(),
-            work => format!(" and {work:.4e} J of work on it"),
-        };
-        let others = [
-            ("springs", energy.elastic),
-            ("damping", energy.damping),
-            ("history", energy.history),
-            ("adhesion", energy.adhesion),
-        ];
-        let scale = energy.initial + energy.external_work.abs();
-        let others: String = others
-            .into_iter()
-            .filter(|(_, part)| part.abs() > NOTHING * scale)
-            .map(|(name, part)| format!("{name} {part:.4e}, "))
-            .collect();
-        writeln!(
-            out,
-            "  energy  {:.4e} J at the start{work}: kinetic {:.4e}, wear {:.4e}, friction {:.4e}, \
-             {others}numerical {:.1e}",
-            energy.initial, energy.kinetic, energy.wear, energy.friction, energy.numerical
-        )?;
+        writeln!(out, "  energy  {}", energy_text(energy))?;
     }
     if let Some(laws) = &summary.laws {
         let own = volume(laws.wear_volume);
@@ -126,7 +111,8 @@ fn write_digest(
         let said = said.join(", ");
         writeln!(out, "  laws    {impacts} over, displaced {own}; by the laws {said}")?;
     }
-    for warning in &summary.warnings {
+    // The notes of the scene were told before it ran.
+    for warning in summary.warnings.iter().filter(|warning| !checked.notes.contains(warning)) {
         writeln!(out, "  note: {warning}")?;
     }
     writeln!(
@@ -155,25 +141,127 @@ fn force_text(force: [f64; 3]) -> String {
     if largest == 0.0 {
         return "no force measured".into();
     }
-    let [x, y, z] = force.map(|part| if part.abs() > NOTHING * largest { part } else { 0.0 });
-    format!("mean force ({x:.4e}, {y:.4e}, {z:.4e}) N")
+    let (size, unit) = force_unit(largest);
+    let [x, y, z] = force.map(|part| match part.abs() > NOTHING * largest {
+        true => digits(part / size),
+        false => "0".to_owned(),
+    });
+    format!("mean force ({x}, {y}, {z}) {unit}")
 }
 
-/// Debris per mass of what has struck.
-fn erosion_text(erosion: &ErosionSummary) -> String {
-    let per_mass = |rate: Option<f64>| rate.map_or(String::new(), |r| format!(" ({r:.3e} kg/kg)"));
+/// Where the energy is that was there, and that came.
+fn energy_text(ledger: &EnergySummary) -> String {
+    let work = match ledger.external_work {
+        work if work.abs() <= NOTHING * (ledger.initial + ledger.wear) => String::new(),
+        work => format!(" and {} of work on it", joules(work)),
+    };
+    let scale = ledger.initial + ledger.external_work.abs();
+    let others = [
+        ("elastic", ledger.elastic),
+        ("damping", ledger.damping),
+        ("history", ledger.history),
+        ("adhesion", ledger.adhesion),
+    ];
+    let others = others.into_iter().filter(|(_, part)| part.abs() > NOTHING * scale);
+    let always =
+        [("kinetic", ledger.kinetic), ("wear", ledger.wear), ("friction", ledger.friction)];
+    let parts = always.into_iter().chain(others).chain([("numerical", ledger.numerical)]);
+    let parts: Vec<_> = parts.map(|(name, part)| format!("{name} {}", joules(part))).collect();
+    format!("{} at the start{work}: {}", joules(ledger.initial), parts.join(", "))
+}
+
+/// `value` [J]; nothing is 0 J.
+fn joules(value: f64) -> String {
+    if value == 0.0 { "0 J".to_owned() } else { energy(value) }
+}
+
+/// What has gone per mass of what has struck; no more than displaced where `all` of that counts as
+/// debris.
+fn erosion_text(erosion: &ErosionSummary, all: bool) -> String {
+    let per_mass =
+        |rate: Option<f64>| rate.map_or(String::new(), |r| format!(" ({} kg/kg)", digits(r)));
     let ErosionSummary { struck, mass, rate, .. } = *erosion;
+    let (what, bound) = match all {
+        true => ("displaced", " (`removal` is `All`: an upper bound of the debris)"),
+        false => ("debris", ""),
+    };
     let mut text = format!(
-        "{rate:.4} mm3/kg{} by {} of {:.4e} kg",
+        "{what} {} mm3/kg{} by {} of {} kg",
+        digits(rate),
         per_mass(erosion.rate_by_mass),
         count(struck, "body", "bodies"),
-        mass
+        digits(mass)
     );
     if let Some((steady, deviation)) = erosion.steady.zip(erosion.steady_deviation) {
         text += &format!(
-            "; steady {steady:.4} +- {deviation:.4} mm3/kg{}",
+            "; steady {} mm3/kg{}",
+            with_deviation(steady, deviation),
             per_mass(erosion.steady_by_mass)
         );
     }
-    text
+    text + bound
+}
+
+/// `value` with the digits that its standard error leaves it, of which two are shown.
+fn with_deviation(value: f64, deviation: f64) -> String {
+    if !(deviation.is_finite() && deviation > 0.0) {
+        return format!("{} +- {}", digits(value), digits(deviation));
+    }
+    let places = 1 - deviation.log10().floor() as i32;
+    let step = 10f64.powi(-places);
+    let [value, deviation] = [value, deviation].map(|x| (x / step).round() * step);
+    let places = places.max(0) as usize;
+    format!("{value:.places$} +- {deviation:.places$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Fails for digits that the error does not leave, and for a volume without a removal rule
+    /// that is told as debris.
+    #[test]
+    fn a_rate_has_the_digits_that_are_known() {
+        assert_eq!(with_deviation(345.217, 25.31), "345 +- 25");
+        assert_eq!(with_deviation(345.217, 253.1), "350 +- 250");
+        assert_eq!(with_deviation(0.5432, 0.00123), "0.5432 +- 0.0012");
+        let mut erosion = ErosionSummary {
+            struck: 2,
+            mass: 2.5e-6,
+            rate: 392.7263,
+            steady: None,
+            steady_deviation: None,
+            rate_by_mass: None,
+            steady_by_mass: None,
+        };
+        assert_eq!(
+            erosion_text(&erosion, true),
+            "displaced 393 mm3/kg by 2 bodies of 2.5e-6 kg (`removal` is `All`: an upper bound of the debris)"
+        );
+        erosion.steady = Some(345.217);
+        erosion.steady_deviation = Some(25.31);
+        assert_eq!(
+            erosion_text(&erosion, false),
+            "debris 393 mm3/kg by 2 bodies of 2.5e-6 kg; steady 345 +- 25 mm3/kg"
+        );
+    }
+
+    /// Fails for powers of ten, and for a part that is not told.
+    #[test]
+    fn forces_and_energies_have_units() {
+        assert_eq!(force_text([-1312.5, 0.0, 20.0]), "mean force (-1.31, 0, 0.02) kN");
+        let energy = EnergySummary {
+            initial: 2.9122,
+            kinetic: 1.5,
+            wear: 1.2,
+            elastic: 0.2,
+            friction: 0.0,
+            numerical: 1.22e-5,
+            ..EnergySummary::default()
+        };
+        assert_eq!(
+            energy_text(&energy),
+            "2.91 J at the start: kinetic 1.5 J, wear 1.2 J, friction 0 J, elastic 200 mJ, numerical 12.2 uJ"
+        );
+    }
 }

@@ -14,6 +14,8 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     output_folder::probe(&folder)?;
     earlier::make_way_for_run(&folder)?;
     let stop = interrupt::flag();
+    // Before it begins: who reads them may wish to break it off.
+    checked.notes.iter().for_each(|note| say::aside(&format!("note: {note}")));
     let options = RunOptions { folder, precision: arguments.precision.into() };
     let mut bar = Bar::new(&stop);
     let outcome = abrade_scene::run(&checked, &options, &mut bar);

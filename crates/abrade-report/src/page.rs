@@ -68,7 +68,7 @@ fn warnings(summary: &Summary) -> String {
 fn surfaces(summary: &Summary) -> String {
     let table = |(name, s): (&String, &SurfaceSummary)| {
         let mut rows = vec![
-            ("Wear volume", quantity(s.wear_volume, "m³")),
+            ("Displaced", quantity(s.wear_volume, "m³")),
             ("by normal flow", quantity(s.wear_volume_normal, "m³")),
             ("by lateral flow", quantity(s.wear_volume_lateral, "m³")),
             ("by slip under load", quantity(s.wear_volume_archard, "m³")),
@@ -78,7 +78,7 @@ fn surfaces(summary: &Summary) -> String {
             ("Worn nodes", format!("{} of {}", s.worn_nodes, s.nodes)),
             ("Largest normal force", quantity(s.peak_normal_force, "N")),
             ("Indented area", quantity(s.indented_area, "m²")),
-            ("Wear rate at the end", optional(s.wear_rate, "m³/m")),
+            ("Wear rate at the end", optional(s.wear_rate.map(|rate| 1e6 * rate), "mm³/mm")),
         ];
         if let Some(MotionSummary { position, rotation_xyzw, velocity, spin }) = s.motion {
             rows.extend(motion(&position, &rotation_xyzw, &velocity, &spin));
@@ -92,8 +92,9 @@ fn bodies(summary: &Summary) -> String {
     let table = |(name, b): (&String, &BodySummary)| {
         let mut rows = motion(&b.position, &b.rotation_xyzw, &b.velocity, &b.spin).to_vec();
         rows.extend([
-            ("Restitution", optional(b.restitution, "")),
-            ("Rebound angle", optional(b.rebound_angle, "°")),
+            ("Speed after over before", optional(b.restitution, "")),
+            ("Leaves from the surface at", optional(b.rebound_angle, "°")),
+            ("Normal restitution", optional(b.restitution_normal, "")),
             ("Mean force", vector(&b.mean_force, "N")),
         ]);
         block(&format!("Body {}", escape(name)), &rows)
@@ -132,7 +133,7 @@ fn energies(summary: &Summary) -> String {
         return String::new();
     };
     let rows = [
-        ("Kinetic at the start", initial),
+        ("At the start", initial),
         ("External work", external_work),
         ("Kinetic now", kinetic),
         ("Stored in springs", elastic),

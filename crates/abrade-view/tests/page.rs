@@ -5,7 +5,9 @@ use std::io::Read as _;
 use std::path::Path;
 
 use abrade::{Ball, Nodes, State};
-use abrade_report::summary::{BodySummary, ErrorEstimate, ResolverCounts, SurfaceSummary};
+use abrade_report::summary::{
+    BodySummary, EnergySummary, ErrorEstimate, ResolverCounts, SurfaceSummary,
+};
 use abrade_report::vtp::{PlacedBody, VtpFile, write_bodies, write_surface};
 use abrade_report::{Mesh, Series, Summary};
 use abrade_view::{Page, ViewError};
@@ -260,4 +262,15 @@ fn a_run_that_broke_off_is_shown_as_far_as_it_got() {
     let page = Page::of_run(folder.path()).expect("a page");
     assert_eq!((page.instants, page.bodies), (INSTANTS, 0));
     assert!(data(&page)["bodies"].is_null());
+}
+
+/// Fails for a list of energies that does not add up because one is left out.
+#[test]
+fn the_page_lists_every_energy_of_the_summary() {
+    let folder = run();
+    let html = Page::of_run(folder.path()).expect("a page").html;
+    let energies = serde_json::to_value(EnergySummary::default()).expect("JSON");
+    for key in energies.as_object().expect("a map").keys() {
+        assert!(html.contains(&format!("{key}: \"")), "{key}");
+    }
 }

@@ -35,6 +35,39 @@ fn a_hardness_softer_than_any_solid_is_noted_before_anything_runs() {
     assert!(!said.out.contains("softer"), "{}", said.out);
 }
 
+/// Fails for notes that come when the run is over, come twice, or go among the figures.
+#[test]
+fn notes_of_the_scene_come_once_and_before_the_figures() {
+    let folder = Folder::new("noted");
+    let soft = "materials.plate.hardness=9000";
+    let sets = ["--set", soft, "--set", "bodies.ball.motion.speed=0.001", "--set", "outputs=[]"];
+    let said = folder.abrade(&[&["run", "scene.ron"], &sets[..]].concat());
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    assert_eq!(said.err.matches("softer than any solid").count(), 1, "{}", said.err);
+    assert!(said.err.starts_with("note: "), "{}", said.err);
+    assert!(!said.out.contains("softer"), "{}", said.out);
+}
+
+/// Fails for a ratio of speeds that is told as the restitution of textbooks, and for one of those
+/// that is taken along another direction than the plate's normal.
+#[test]
+fn what_a_body_keeps_of_its_speed_is_told_as_that() {
+    let folder = Folder::new("keeps");
+    let run = |more: &[&str]| folder.abrade(&[&["run", "scene.ron"], more].concat());
+    let said = run(&["--json", "--set", "outputs=[]"]);
+    let summary: serde_json::Value = serde_json::from_str(&said.out).unwrap();
+    let ball = &summary["bodies"]["ball"];
+    let up = ball["velocity_m_s"][2].as_f64().unwrap();
+    let normal = ball["restitution_normal"].as_f64().unwrap();
+    let down = 35.0 * std::f64::consts::FRAC_1_SQRT_2;
+    assert!((normal - up / down).abs() < 1e-9, "{normal}: {up} of {down} m/s");
+    let whole = ball["restitution"].as_f64().unwrap();
+    let angle = ball["rebound_angle_deg"].as_f64().unwrap();
+    let told = format!("leaves with {whole:.3} of its speed, at {angle:.1} deg from the surface\n");
+    let said = run(&["--set", "outputs=[]"]);
+    assert!(said.out.contains(&told), "{told}: {}", said.out);
+}
+
 /// Fails for a run that failed and is told by figures that end in the middle of a contact.
 #[test]
 fn a_run_that_failed_says_so_and_nothing_else() {
@@ -44,7 +77,7 @@ fn a_run_that_failed_says_so_and_nothing_else() {
     let said = folder.abrade(&[&["run", "scene.ron"], &sets[..]].concat());
     assert_eq!(said.code, Some(1), "{}{}", said.out, said.err);
     assert!(said.out.contains("failed after"), "{}", said.out);
-    assert!(!said.out.contains("restitution"), "{}", said.out);
+    assert!(!said.out.contains("leaves"), "{}", said.out);
 }
 
 /// Fails for a wear rate without its name or its unit, and for places that tell different ones.
@@ -66,7 +99,9 @@ fn a_wear_rate_is_told_with_its_unit_and_the_same_everywhere() {
     let page = read("report.html");
     let shown = page.split_once("Wear rate at the end").expect("a row").1;
     let shown: String = shown.chars().take(100).collect();
-    assert!(shown.contains("m³/m"), "{shown}");
+    assert!(shown.contains("mm³/mm"), "{shown}");
+    let shown = number(&shown, "<td>", "&nbsp;");
+    assert!((shown - told).abs() < 5e-3 * told, "{told} mm3/mm, {shown} mm3/mm");
 }
 
 /// Fails for a run in a long contact that no interrupt can end.

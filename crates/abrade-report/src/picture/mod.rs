@@ -123,7 +123,7 @@ fn caption(nodes: &Nodes, volume: f64) -> String {
     }
     let worn = nodes.depth.iter().filter(|depth| **depth > 0.0).count();
     format!(
-        "wear volume {}  ·  largest depth {}  ·  {} of {} worn",
+        "displaced {}  ·  largest depth {}  ·  {} of {} worn",
         with_unit(volume, of_volume(volume)),
         with_unit(deepest, of_length(deepest)),
         counted(worn),

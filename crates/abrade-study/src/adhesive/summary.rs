@@ -81,7 +81,8 @@ impl Summary {
         let failure =
             self.failure.as_ref().map_or(String::new(), |why| format!("ended early: {why}\n"));
         format!(
-            "{failure}{}: {}\n  ground {:.3}, largest piece {:.3} of an asperity, {:.2} small pieces per facet element, worn {:.3}\n  \
+            "{failure}{}: {}\n  ground {:.3}, largest piece {:.3} of an asperity, {:.2} small pieces per facet element, \
+             moved {:.1} % of the asperities\n  \
              transferred {:.3}, debris {:.3}, links failed {:.3}, joined: {}\n  \
              mean force on the lower body {:.0} N/m along, {:.0} N/m across; {} elements, {} steps\n",
             self.name,
@@ -89,7 +90,7 @@ impl Summary {
             figures.ground,
             figures.largest_piece,
             figures.small_pieces,
-            figures.worn,
+            100.0 * figures.worn,
             figures.transferred,
             figures.debris,
             figures.failed,

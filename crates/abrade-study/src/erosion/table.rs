@@ -91,7 +91,7 @@ fn write_csv(records: &[Map<String, Value>], path: &Path) -> Result<(), ReportEr
 const HEAD: [(&str, usize); 10] = [
     ("angle", 6),
     ("impacts", 8),
-    ("wear mm3/kg", 18),
+    ("displaced mm3/kg", 18),
     ("over ref.", 14),
     ("debris mm3/kg", 18),
     ("over ref.", 14),

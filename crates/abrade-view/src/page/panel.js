@@ -11,14 +11,14 @@ function tellNumbers(body, { summary }) {
     const all = surfaces.map(([, surface]) => surface);
     const sum = (key) => all.reduce((total, surface) => total + surface[key], 0);
     heading(body, `${surfaces.length} surfaces together`);
-    row(body, "Wear volume W", volume(sum("wear_volume_m3")));
+    row(body, "Displaced", volume(sum("wear_volume_m3")));
     row(body, "Largest depth", quantity(Math.max(...all.map((surface) => surface.max_depth_m)), LENGTHS));
     row(body, "Worn nodes", `${grouped(String(sum("worn_nodes")))} of ${grouped(String(sum("nodes")))}`);
   } else {
     for (const [name, surface] of surfaces) {
       heading(body, `Surface ${name}`);
-      row(body, "Wear volume W", volume(surface.wear_volume_m3));
-      if (Math.abs(surface.removed_volume_m3 / surface.wear_volume_m3 - 1) > 1e-9) row(body, "Removed", volume(surface.removed_volume_m3));
+      row(body, "Displaced", volume(surface.wear_volume_m3));
+      if (Math.abs(surface.removed_volume_m3 / surface.wear_volume_m3 - 1) > 1e-9) row(body, "Debris", volume(surface.removed_volume_m3));
       row(body, "Largest depth", quantity(surface.max_depth_m, LENGTHS));
       row(body, "Worn nodes", `${grouped(String(surface.worn_nodes))} of ${grouped(String(surface.nodes))}`);
     }
@@ -27,19 +27,20 @@ function tellNumbers(body, { summary }) {
   if (struck.length > ROWS) {
     heading(body, `${bodies.length} bodies, ${struck.length} have struck`);
     const mean = struck.reduce((total, [, entry]) => total + entry.restitution, 0) / struck.length;
-    row(body, "Mean restitution", number(mean));
+    row(body, "Speed after over before, mean", number(mean));
   } else {
     for (const [name, entry] of struck) {
       heading(body, `Body ${name}`);
-      row(body, "Restitution", number(entry.restitution));
-      if (entry.rebound_angle_deg !== null) row(body, "Leaves at", `${number(entry.rebound_angle_deg)}°`);
+      row(body, "Speed after over before", number(entry.restitution));
+      if (entry.rebound_angle_deg !== null) row(body, "Leaves from the surface at", `${number(entry.rebound_angle_deg)}°`);
+      if (entry.restitution_normal != null) row(body, "Normal restitution", number(entry.restitution_normal));
     }
   }
   if (summary.energy) {
     heading(body, "Energy");
     const energy = summary.energy;
     const scale = Math.max(energy.initial_J, energy.wear_J, Math.abs(energy.external_work_J));
-    const names = { initial_J: "At the start", external_work_J: "Work done on it", kinetic_J: "Kinetic", wear_J: "Wear", friction_J: "Friction", damping_J: "Damping", elastic_J: "In springs", numerical_J: "Numerical" };
+    const names = { initial_J: "At the start", external_work_J: "External work", kinetic_J: "Kinetic now", wear_J: "Wear", friction_J: "Friction", damping_J: "Damping", history_J: "Tangential history", adhesion_J: "Adhesion", elastic_J: "Stored in springs", numerical_J: "Numerical" };
     for (const [key, name] of Object.entries(names)) {
       if (Math.abs(energy[key]) > 1e-12 * scale) row(body, name, quantity(energy[key], ENERGIES));
     }
