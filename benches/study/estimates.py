@@ -116,12 +116,13 @@ def show():
 
 
 def told(rows):
-    """The cells of a line: counts, and the two ends with their cases."""
+    """The cells of a line: counts, and the two ends with their cases where there are several."""
     ratio = {id(row): float(row["error_over_estimate"]) for row in rows}
     within = sum(1.0 / FACTOR <= value <= FACTOR for value in ratio.values())
     at_most = sum(value <= FACTOR for value in ratio.values())
     ends = [end(rows, key=lambda row: ratio[id(row)]) for end in (min, max)]
-    ends = [f"{ratio[id(row)]:.2g} ({row['case']})" for row in ends]
+    named = len({row["case"] for row in rows}) > 1
+    ends = [f"{ratio[id(row)]:.2g}" + f" ({row['case']})" * named for row in ends]
     return " | ".join([str(len(rows)), str(within), str(at_most), *ends])
 
 
