@@ -83,6 +83,6 @@ fn tell(what: &str, path: &Path, folder: &Path) {
     let age =
         path.metadata().and_then(|file| file.modified()).ok().and_then(|at| at.elapsed().ok());
     let age = age.map_or(String::new(), |age| format!(" of {} ago", time(age.as_secs_f64())));
-    let place = folder.display();
+    let place = say::place(folder);
     say::aside(&format!("note: replaces {what}{age} in {place}; --out DIR keeps both"));
 }

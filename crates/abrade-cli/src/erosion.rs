@@ -83,7 +83,7 @@ impl Opened {
         let result = erosion::result(&self.file, &self.beside, &self.out).map_err(failure)?;
         output_folder::make(&self.out)?;
         erosion::write(&result, &self.beside, &self.out).map_err(failure)?;
-        let place = self.out.display();
+        let place = say::place(&self.out);
         say::say(&format!(
             "{}\nreport.html, cases.csv and grains.csv are in {place}\n",
             result.table()

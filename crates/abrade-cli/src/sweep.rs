@@ -28,7 +28,7 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let cases = arguments.part.choose(opened.file.cases(), |case| case.number)?;
     let unmade = opened.make(&cases)?;
     let there = opened.file.cases().iter().filter(|case| opened.has(case)).count();
-    let place = opened.out.display();
+    let place = say::place(&opened.out);
     say::say(&format!("{} in {place}\n", say::of_cases(there, all)))?;
     match unmade.is_empty() {
         true => Ok(()),

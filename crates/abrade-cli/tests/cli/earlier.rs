@@ -15,7 +15,12 @@ fn a_run_that_replaces_another_one_says_so() {
     assert_eq!(again.code, Some(0));
     let (begin, end) = ("note: replaces the run `Oblique impact of a ball` of ", " ago in ");
     assert!(again.err.starts_with(begin), "{}", again.err);
-    assert!(again.err.ends_with(&format!("{end}{place}; --out DIR keeps both\n")), "{}", again.err);
+    assert!(
+        again.err.ends_with(&format!("{end}\"{place}\"; --out DIR keeps both\n")),
+        "{}",
+        again.err
+    );
+    assert!(again.out.ends_with(&format!(" in \"{place}\"\n")), "{}", again.out);
     // What a run leaves that was killed while it wrote its last files is no reason to ask.
     std::fs::remove_file(folder.0.join(place).join("summary.json")).unwrap();
     let history = folder.0.join(place).join("history.csv");

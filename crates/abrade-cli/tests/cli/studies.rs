@@ -53,7 +53,7 @@ fn an_erosion_study_is_made_whole_or_in_parts() {
     folder.write("study.ron", EROSION);
     let said = folder.abrade(&["study", "erosion", "study.ron"]);
     assert_eq!(said.code, Some(0), "{}", said.err);
-    for words in ["two grains\n", "cube at 98 m/s", "30         4", "runs/two grains"] {
+    for words in ["two grains\n", "cube at 98 m/s", "30         4", "\"runs/two grains\""] {
         assert!(said.out.contains(words), "{words}: {}", said.out);
     }
     let table = |place: &str| {
