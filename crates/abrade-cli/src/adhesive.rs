@@ -79,6 +79,7 @@ impl Opened {
         let cases = part.choose(self.file.cases(), |case| case.number)?;
         earlier::make_way_for_cases(&self.out, CASE, &TABLES)?;
         output_folder::make(&self.out)?;
+        earlier::tell_others(adhesive::others(&self.file, &self.out), &self.out);
         let stop = interrupt::flag();
         let mut bar = Bar::of_cases(&stop);
         let made = adhesive::make(&self.file, &cases, &self.out, &mut bar);

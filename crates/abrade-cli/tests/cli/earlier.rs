@@ -97,6 +97,35 @@ fn a_folder_of_something_else_is_left_alone() {
     }
 }
 
+/// Fails for a study that puts its files among those of a run, and for a run that does so among those of a study.
+#[test]
+fn a_study_and_a_run_do_not_share_a_folder() {
+    let folder = Folder::new("shared");
+    folder.write("study.ron", crate::studies::EROSION);
+    folder.write("map.ron", crate::adhesive::MAP);
+    let into =
+        |out: &str, arguments: &[&str]| folder.abrade(&[arguments, &["--out", out]].concat());
+    let run = ["run", "scene.ron", "--set", "outputs=[]"];
+    let study = ["study", "erosion", "study.ron"];
+    assert_eq!(into("a", &run).code, Some(0));
+    assert_eq!(into("b", &study).code, Some(0));
+    let convergence = ["study", "convergence", "scene.ron"];
+    for arguments in [&study[..], &convergence, &["adhesive", "map", "map.ron"]] {
+        let said = into("a", arguments);
+        let told = "error: the output folder `a` holds the run `Oblique impact of a ball`: name another one \
+                    with --out, or empty it\n";
+        assert_eq!((said.code, said.err.as_str()), (Some(2), told), "{arguments:?}");
+    }
+    let said = into("b", &run);
+    assert_eq!(said.code, Some(2));
+    assert!(said.err.contains("holds files that are no run's of abrade"), "{}", said.err);
+    // A run that was broken off has no summary.
+    std::fs::remove_file(folder.0.join("a/summary.json")).unwrap();
+    let said = into("a", &study);
+    assert_eq!(said.code, Some(2));
+    assert!(said.err.contains("holds a run that was broken off"), "{}", said.err);
+}
+
 /// Fails for a run that ends where nobody reads what it tells beside its results.
 #[test]
 fn work_goes_on_where_nobody_reads_the_error_stream() {
