@@ -99,6 +99,22 @@ fn an_erosion_study_is_made_whole_or_in_parts() {
     assert!(list.contains("0  begun") && list.contains("1  -"), "{list}");
 }
 
+/// Fails for a volume of nothing that is told as a number with an interval, or by a word that nobody explains.
+#[test]
+fn no_debris_is_told_as_none() {
+    let folder = Folder::new("erosion_none");
+    folder.write("study.ron", EROSION);
+    let said = folder.abrade(&["study", "erosion", "study.ron", "--out", "out"]);
+    let rows: Vec<_> = said.out.lines().filter(|line| line.starts_with("      30")).collect();
+    // By the removal rule a ball leaves no debris below a critical angle of 35 degrees, and a cube does.
+    assert!(rows[0].contains(" none ") && !rows[1].contains("none"), "{}", said.out);
+    let page = std::fs::read_to_string(folder.0.join("out/report.html")).unwrap();
+    assert!(page.contains("<td>none</td>") && !page.contains("0 ± 0<"));
+    for legend in ["none: the removal rule takes no debris", "none: ball leaves none"] {
+        assert!(page.contains(legend), "{legend}");
+    }
+}
+
 /// One that ran first and looked later would leave a folder.
 #[test]
 fn a_wrong_study_is_shown_at_its_place() {
