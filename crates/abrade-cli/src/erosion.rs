@@ -58,6 +58,9 @@ impl Opened {
         self.make_way()?;
         output_folder::make(&self.out)?;
         earlier::tell_others(erosion::others(&self.file, &self.beside, &self.out), &self.out);
+        for note in erosion::notes(&self.file) {
+            say::aside(&format!("note: {note}"));
+        }
         let stop = interrupt::flag();
         let mut bar = Bar::of_cases(&stop);
         let made = erosion::make(&self.file, &self.beside, cases, &self.out, &mut bar);

@@ -29,7 +29,7 @@ use abrade_report::atomic;
 use abrade_scene::Progress;
 
 pub use case::{Case, CaseError, Made, Unmade};
-pub use check::{load, load_text};
+pub use check::{load, load_text, notes};
 pub use descriptors::Descriptors;
 pub use file::{Plate, Samples, Sequence, Size, StudyFile, Target, VERSION};
 pub use impact::Impact;
