@@ -91,7 +91,7 @@ fn check_takes_files_of_every_kind() {
         "scene.ron: Oblique impact of a ball: scene, 1 surface, 18480 nodes, 1 body, roughly 2.6 ms
 bodies.ron: brittle: two asperities, 3586 elements
 map.ron: small map: map of two asperities, 6 cases
-study.ron: two grains: erosion study, 2 cases
+study.ron: two grains: erosion study, 2 cases, 8 impacts at most
 "
     );
     folder.write("overlap.ron", &SCENE.replace("travel", "gap: -4.0, travel"));
