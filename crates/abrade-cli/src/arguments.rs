@@ -110,8 +110,8 @@ pub(crate) struct FileArguments {
     /// Change a value of the file, as in samples.most=256 or bodies.overlap=0.3; may be repeated.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub(crate) sets: Vec<String>,
-    /// Folder for the results; cases that are there are kept, tables are replaced, files of anything else of
-    /// the same names are refused [default: runs/<its name>].
+    /// Folder for the results; cases that are there are kept, tables are replaced, folders of runs and files of
+    /// anything else of the same names are refused [default: runs/<its name>].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Threads [default: one per core].

@@ -34,7 +34,9 @@ mod size;
 mod solid;
 mod spans;
 mod stream;
+mod unlikely;
 mod unread;
+mod way;
 
 pub use build::{BuildError, Built, BuiltSurface, StandIn};
 pub use carrier::BuiltCarrier;
@@ -51,4 +53,5 @@ pub use scene::Scene;
 pub use size::{Size, SurfaceSize};
 pub use solid::Solid;
 pub use spans::{field_names, path};
+pub use unlikely::{Usual, material_notes};
 pub use unread::unread;
