@@ -63,11 +63,20 @@ def python_with(name, packages):
     return folder
 
 
+@dataclass
+class Abrade:
+    """The command, and the example that runs a scene again and again in one process."""
+
+    command: Path
+    warm: Path
+
+
 def abrade():
-    """The command, built."""
-    build = ["cargo", "build", "--release", "--quiet", "--bin", "abrade"]
-    subprocess.run(build, cwd=ROOT, check=True)
-    return ROOT / "target" / "release" / "abrade"
+    """Both, built."""
+    place = ROOT / "target" / "release"
+    for what in (["--bin", "abrade"], ["-p", "abrade-scene", "--example", "warm"]):
+        subprocess.run(["cargo", "build", "--release", "--quiet", *what], cwd=ROOT, check=True)
+    return Abrade(place / "abrade", place / "examples" / "warm")
 
 
 def machine():

@@ -63,8 +63,9 @@ count() { "$ABRADE" sweep "$STUDY" --out "$OUT" --list | grep -c ' there ' || tr
 submit() { sbatch --parsable --array=0-3 --chdir="$dir" "$top/studies/slurm.sh"; }
 job=$(submit)
 # Killed when its shard has made a case and has others to make.
-for _ in $(seq 600); do [ -e "$OUT/cases/0001.jsonl" ] && break; sleep 0.1; done
-[ -e "$OUT/cases/0001.jsonl" ] || fail "the second shard makes nothing, see $dir"
+has_made() { "$ABRADE" sweep "$STUDY" --out "$OUT" --list | grep -q "^ *$1  there "; }
+for _ in $(seq 600); do has_made 1 && break; sleep 0.1; done
+has_made 1 || fail "the second shard makes nothing, see $dir"
 scancel --full --signal=KILL "${job}_1" || fail "there was nothing left to kill"
 drain
 all=$("$ABRADE" sweep "$STUDY" --out "$OUT" --list | wc -l)

@@ -5,8 +5,9 @@ Run from the top of the repository, with the seconds that each study may take (d
     python3 benches/study/estimates.py 20
 
 Every case is a shipped scene with some of its values changed. Each is studied over accuracy and
-over pitch, from six landings; docs/errors.md shows what is printed. Takes the standard library
-alone.
+over pitch, from six landings. The ratio of error and estimate at every setting goes to
+docs/estimates.csv; docs/errors.md shows the table that is printed. `show` in the place of the
+seconds prints the table of the file that is there. Takes the standard library alone.
 """
 
 import collections
@@ -16,6 +17,9 @@ import subprocess
 import sys
 
 FOLDER = pathlib.Path("target/study")
+RATIOS = pathlib.Path("docs/estimates.csv")
+BALLS, FACES = "balls", "cubes and tetrahedra"
+SCENES, SCRATCH = "scenes as they are", "scratch of 4 mm"
 ANGLE = "bodies.ball.motion.angle"
 SPEED = "bodies.ball.motion.speed"
 RIGID = "surfaces.plate.elastic=Rigid"
@@ -29,25 +33,26 @@ def ball(*sets):
 
 
 def cases():
-    """Name, scene and changes of each case."""
+    """Group, name, scene and changes of each case."""
     for angle in (15, 30, 60, 90):
-        yield f"ball at {angle} deg", *ball(f"{ANGLE}={angle} deg")
-        yield f"without friction, {angle} deg", *ball(
+        yield BALLS, f"ball at {angle} deg", *ball(f"{ANGLE}={angle} deg")
+        yield BALLS, f"without friction, {angle} deg", *ball(
             f"{ANGLE}={angle} deg", "materials.steel.friction=0.0"
         )
     for hardness, angle in (("0.3 GPa", 30), ("6 GPa", 30), ("6 GPa", 80)):
-        yield f"hardness {hardness}, {angle} deg", *ball(
+        yield BALLS, f"hardness {hardness}, {angle} deg", *ball(
             f"{ANGLE}={angle} deg", f"materials.steel.hardness={hardness}"
         )
     for speed, angle in ((8, 45), (8, 85), (120, 45)):
-        yield f"{speed} m/s, {angle} deg", *ball(f"{SPEED}={speed} m/s", f"{ANGLE}={angle} deg")
-    yield "NormalPressure", *ball("surfaces.plate.flow=NormalPressure()")
-    yield "Rigid", *ball(RIGID)
-    yield "restitution 0.5", *ball("surfaces.plate.restitution=0.5")
+        name = f"{speed} m/s, {angle} deg"
+        yield BALLS, name, *ball(f"{SPEED}={speed} m/s", f"{ANGLE}={angle} deg")
+    yield BALLS, "NormalPressure", *ball("surfaces.plate.flow=NormalPressure()")
+    yield BALLS, "Rigid", *ball(RIGID)
+    yield BALLS, "restitution 0.5", *ball("surfaces.plate.restitution=0.5")
     for seed in (1, 2, 3):
         turned = f"bodies.ball.rotation=Random(seed: {seed})"
-        yield f"cube {seed}", *ball(CUBE, turned)
-        yield f"tetrahedron {seed}, Rigid", *ball(TETRAHEDRON, turned, RIGID)
+        yield FACES, f"cube {seed}", *ball(CUBE, turned)
+        yield FACES, f"tetrahedron {seed}, Rigid", *ball(TETRAHEDRON, turned, RIGID)
     for scene in (
         "foundation/normal_impact.ron",
         "foundation/oblique_impact.ron",
@@ -55,9 +60,9 @@ def cases():
         "theory/polyhedron_generic.ron",
         "clump_impact.ron",
     ):
-        yield scene, scene, []
+        yield SCENES, scene, scene, []
     short = ["bodies.indenter.motion.distance=4 mm", "bodies.indenter.motion.rate_over=2 mm"]
-    yield "scratch of 4 mm", "foundation/scratch.ron", short
+    yield SCRATCH, "scratch of 4 mm", "foundation/scratch.ron", short
 
 
 def study(name, scene, sets, seconds):
@@ -81,25 +86,51 @@ def ratios(rows, varied, estimate):
                 yield error / float(row[estimate])
 
 
-def main():
-    seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 20.0
+def measure(seconds):
+    """Writes the ratios of every case."""
     subprocess.run(["cargo", "build", "--release", "--bin", "abrade"], check=True)
-    found = collections.defaultdict(list)
-    print("| case | error by time over its estimate | error by pitch over its estimate |")
-    print("|---|---|---|")
-    for name, scene, sets in cases():
-        rows = study(name, scene, sets, seconds)
-        cells = []
-        for varied, estimate in (("accuracy", "estimate_time"), ("pitch", "estimate_pitch")):
-            these = list(ratios(rows, varied, estimate))
-            found[varied] += these
-            cells.append(", ".join(f"{ratio:.2g}" for ratio in these))
-        print(f"| {name} | {cells[0]} | {cells[1]} |", flush=True)
-    for varied, all_of_it in found.items():
-        within = sum(1.0 / FACTOR <= ratio <= FACTOR for ratio in all_of_it)
-        below = sum(ratio <= FACTOR for ratio in all_of_it)
-        count = len(all_of_it)
-        print(f"{varied}: {count} settings, {within} within a factor of 3, {below} at most 3")
+    with open(RATIOS, "w", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["group", "case", "estimate", "error_over_estimate"])
+        for group, name, scene, sets in cases():
+            rows = study(name, scene, sets, seconds)
+            for varied, estimate in (("accuracy", "time"), ("pitch", "pitch")):
+                for ratio in ratios(rows, varied, f"estimate_{estimate}"):
+                    table.writerow([group, name, estimate, f"{ratio:.2g}"])
+            file.flush()
+
+
+def show():
+    """Prints, for every group, how many ratios are near one, and the least and the largest."""
+    with open(RATIOS, newline="") as file:
+        rows = list(csv.DictReader(file))
+    print("| estimate | cases | settings | within a factor of 3 | at most 3 | least | largest |")
+    print("|---|---|---|---|---|---|---|")
+    for estimate in ("time", "pitch"):
+        groups = collections.defaultdict(list)
+        all_of_it = [row for row in rows if row["estimate"] == estimate]
+        for row in all_of_it:
+            groups[row["group"]].append(row)
+        for group, these in [*groups.items(), ("all", all_of_it)]:
+            print(f"| {estimate} | {group} | {told(these)} |")
+
+
+def told(rows):
+    """The cells of a line: counts, and the two ends with their cases where there are several."""
+    ratio = {id(row): float(row["error_over_estimate"]) for row in rows}
+    within = sum(1.0 / FACTOR <= value <= FACTOR for value in ratio.values())
+    at_most = sum(value <= FACTOR for value in ratio.values())
+    ends = [end(rows, key=lambda row: ratio[id(row)]) for end in (min, max)]
+    named = len({row["case"] for row in rows}) > 1
+    ends = [f"{ratio[id(row)]:.2g}" + f" ({row['case']})" * named for row in ends]
+    return " | ".join([str(len(rows)), str(within), str(at_most), *ends])
+
+
+def main():
+    what = sys.argv[1] if len(sys.argv) > 1 else "20"
+    if what != "show":
+        measure(float(what))
+    show()
 
 
 if __name__ == "__main__":

@@ -236,3 +236,19 @@ fn a_turning_plate_turns_a_ball_as_a_still_plate_slows_it() {
         assert!((taken / slowed - 1.0).abs() < 1e-2, "{name}: {taken} {slowed}");
     }
 }
+
+/// Fails for a plate of infinite mass that is asked for the work of its loads, or braked by its damping,
+/// where one without a mass is led.
+#[test]
+fn a_plate_that_nothing_moves_is_a_led_plate() {
+    let (_, case) = cases().swap_remove(0);
+    let motion = State { velocity: Vector3::new(-0.3, 0.2, 0.4), ..slab(1.0).0 };
+    let loads = Loads { torque: Vector3::x(), linear_damping: 2.0, ..Loads::default() };
+    let [led, immovable] = [None, Some(Inertia::immovable())].map(|inertia| {
+        let carrier = Some(Carrier { state: motion, inertia, loads });
+        Meeting { carrier, ..copy(&case) }.run(0.6, 0.05)
+    });
+    assert!(led.ledger.external_work != 0.0 && led.surface.wear_volume() > 0.0);
+    assert_eq!(led.carrier.expect("a plate").state, immovable.carrier.expect("a plate").state);
+    assert_eq!(led.ledger, immovable.ledger);
+}

@@ -25,7 +25,7 @@ pub(crate) fn run(arguments: &AdhesiveRunArguments) -> Result<(), Failure> {
     match arguments.json {
         true => say::say(&format!("{:#}\n", ended.summary.to_json()))?,
         false => {
-            let (text, place) = (ended.summary.text(), folder.display());
+            let (text, place) = (ended.summary.text(), say::place(&folder));
             say::say(&format!(
                 "{text}elements.pvd, links.pvd, timeseries.csv, {} and summary.json are in {place}\n",
                 adhesive::PICTURE
@@ -77,6 +77,7 @@ impl Opened {
         let cases = part.choose(self.file.cases(), |case| case.number)?;
         earlier::make_way_for_cases(&self.out, CASE, &TABLES)?;
         output_folder::make(&self.out)?;
+        earlier::tell_others(adhesive::others(&self.file, &self.out), &self.out);
         let stop = interrupt::flag();
         let mut bar = Bar::of_cases(&stop);
         let made = adhesive::make(&self.file, &cases, &self.out, &mut bar);
@@ -104,7 +105,7 @@ impl Opened {
     fn count(&self) -> Result<(), Failure> {
         let cases = self.file.cases();
         let there = cases.iter().filter(|case| self.has(case)).count();
-        let (all, place) = (cases.len(), self.out.display());
+        let (all, place) = (cases.len(), say::place(&self.out));
         say::say(&format!("{} in {place}\n", say::of_cases(there, all)))
     }
 
@@ -122,7 +123,7 @@ impl Opened {
         let map = adhesive::result(&self.file, &self.out);
         output_folder::make(&self.out)?;
         adhesive::write(&map, &self.out).map_err(failure)?;
-        let place = self.out.display();
+        let place = say::place(&self.out);
         say::say(&format!(
             "{}\ncases.csv, points.csv, boundary.csv and map.png are in {place}\n",
             map.table()

@@ -118,8 +118,8 @@ pub(crate) struct FileArguments {
 /// Where the cases of a study or a map go, and on how many threads they are made.
 #[derive(Args)]
 pub(crate) struct PlaceArguments {
-    /// Folder for the results; cases that are there are kept, tables are replaced, files of anything else of
-    /// the same names are refused [default: runs/<name of the file without .ron>].
+    /// Folder for the results; cases that are there are kept, tables are replaced, folders of runs and files
+    /// of anything else of the same names are refused [default: runs/<name of the file without .ron>].
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Threads [default: one per core].

@@ -10,8 +10,8 @@ use crate::arguments::CheckArguments;
 use crate::failure::Failure;
 use crate::kind::{self, Read};
 use crate::say::say;
-use crate::scene_text;
 use crate::study::failure;
+use crate::{scene_text, study_text};
 
 /// Checks every file; tells the sound ones on the output and the others where errors go.
 pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
@@ -19,6 +19,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     if let [path] = files.as_slice() {
         return match kind::any(path, sets)? {
             Read::Scene(checked) => say(&scene_text::rows(&checked)),
+            Read::Erosion(file) => say(&study_text::rows(&file)),
             read => say(&line(path, &read)?),
         };
     }
@@ -41,10 +42,7 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
 fn line(path: &Path, read: &Read) -> Result<String, Failure> {
     let (name, text) = match read {
         Read::Scene(checked) => (&checked.scene.name, scene_text::line(checked)),
-        Read::Erosion(file) => {
-            let cases = count(file.cases().len(), "case", "cases");
-            (&file.name, format!("erosion study, {cases}"))
-        }
+        Read::Erosion(file) => (&file.name, study_text::line(file)),
         Read::Asperities(file) => {
             let elements = adhesive::element_count(file).map_err(failure)?;
             let elements = count(elements, "element", "elements");

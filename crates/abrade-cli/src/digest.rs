@@ -10,6 +10,8 @@ use abrade_report::summary::{EnergySummary, ErosionSummary};
 use abrade_scene::Checked;
 use abrade_scene::scene::Output;
 
+use crate::say;
+
 /// Share of the energy below which work is rounding.
 const NOTHING: f64 = 1e-9;
 
@@ -23,7 +25,7 @@ pub(crate) fn digest(checked: &Checked, summary: &Summary, folder: &Path) -> Str
 /// What is left of a run that failed: its figures end in the middle of a contact, and tell nothing.
 pub(crate) fn of_failed(summary: &Summary, folder: &Path) -> String {
     let Summary { scene, simulated, .. } = summary;
-    let place = folder.display();
+    let place = say::place(folder);
     format!(
         "{scene}\n  failed after {simulated:.3e} s simulated; what was done until then is in {place}\n"
     )
@@ -132,7 +134,7 @@ fn write_digest(
         (true, ..) => "surface.png and more".to_owned(),
         (false, ..) => "summary.json".to_owned(),
     };
-    writeln!(out, "  {file} in {}", folder.display())
+    writeln!(out, "  {file} in {}", say::place(folder))
 }
 
 /// The mean force on a body [N], without what is rounding beside the rest.

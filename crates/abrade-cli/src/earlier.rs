@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use abrade_report::quantity_text::time;
+use abrade_report::quantity_text::{count, time};
 use abrade_report::run_files;
 use anyhow::anyhow;
 use serde_json::Value;
@@ -27,21 +27,36 @@ pub(crate) fn make_way_for_run(folder: &Path) -> Result<(), Failure> {
 pub(crate) fn make_way_for_convergence(folder: &Path) -> Result<(), Failure> {
     let table = folder.join("study.csv");
     let head = std::fs::read_to_string(&table).unwrap_or_default();
-    match head.lines().next().is_some_and(|line| line.contains(",wall_s,")) {
-        true => tell("the study", &table, folder),
-        false => refuse_any(folder, &["study.csv", "study.png"])?,
+    if head.lines().next().is_some_and(|line| line.contains(",wall_s,")) {
+        tell("the study", &table, folder);
+        return Ok(());
     }
-    Ok(())
+    refuse_run(folder)?;
+    refuse_any(folder, &["study.csv", "study.png"])
 }
 
-/// Makes sure that a study that keeps its cases in `folder`, each in a file of its number and `end`, may write
+/// Makes sure that a study that keeps its cases in `folder`, each in a file of its fingerprint and `end`, may write
 /// `tables` there. One of its own goes on.
 pub(crate) fn make_way_for_cases(folder: &Path, end: &str, tables: &[&str]) -> Result<(), Failure> {
-    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|c| c.is_ascii_digit());
+    let is_fingerprint =
+        |text: &str| text.len() == 16 && text.bytes().all(|c| c.is_ascii_hexdigit());
     let cases = folder.join("cases");
-    match names(&cases).any(|name| name.strip_suffix(end).is_some_and(is_number)) {
-        true => Ok(()),
-        false => refuse_any(folder, tables),
+    if names(&cases).any(|name| name.strip_suffix(end).is_some_and(is_fingerprint)) {
+        return Ok(());
+    }
+    refuse_run(folder)?;
+    refuse_any(folder, tables)
+}
+
+/// Says that `others` of the cases in `folder` are none of the study that is made now.
+pub(crate) fn tell_others(others: usize, folder: &Path) {
+    if others > 0 {
+        let others = count(others, "case is", "cases are");
+        let place = say::place(folder);
+        say::aside(&format!(
+            "note: {others} in {place} of the study before it changed: they stay there beside those that are \
+             made now"
+        ));
     }
 }
 
@@ -64,6 +79,15 @@ fn run_name(path: &Path) -> Option<String> {
     name.as_str().map(str::to_owned)
 }
 
+/// Refuses the folder of a run, whose files would be taken for those of a study, and the other way round.
+fn refuse_run(folder: &Path) -> Result<(), Failure> {
+    match run_name(&folder.join("summary.json")) {
+        Some(name) => Err(foreign(folder, &format!("the run `{name}`"))),
+        None if run_files::is_of_run(folder) => Err(foreign(folder, "a run that was broken off")),
+        None => Ok(()),
+    }
+}
+
 fn refuse_any(folder: &Path, written: &[&str]) -> Result<(), Failure> {
     match written.iter().find(|name| folder.join(name).exists()) {
         Some(name) => Err(foreign(folder, &format!("{name} of something else"))),
@@ -83,6 +107,6 @@ fn tell(what: &str, path: &Path, folder: &Path) {
     let age =
         path.metadata().and_then(|file| file.modified()).ok().and_then(|at| at.elapsed().ok());
     let age = age.map_or(String::new(), |age| format!(" of {} ago", time(age.as_secs_f64())));
-    let place = folder.display();
+    let place = say::place(folder);
     say::aside(&format!("note: replaces {what}{age} in {place}; --out DIR keeps both"));
 }

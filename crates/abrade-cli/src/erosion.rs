@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use abrade_report::quantity_text::count;
 use abrade_study::erosion::{self, Case, StudyFile, Unmade};
 
 use crate::arguments::FileArguments;
@@ -58,14 +57,9 @@ impl Opened {
     pub(crate) fn make(&self, cases: &[Case]) -> Result<Vec<Unmade>, Failure> {
         self.make_way()?;
         output_folder::make(&self.out)?;
-        let others = erosion::others(&self.file, &self.beside, &self.out);
-        if others > 0 {
-            say::aside(&format!(
-                "note: {} in {} of the study before it changed: they are replaced by those that are made \
-                 now; --out DIR keeps both",
-                count(others, "case is", "cases are"),
-                self.out.display()
-            ));
+        earlier::tell_others(erosion::others(&self.file, &self.beside, &self.out), &self.out);
+        for note in erosion::notes(&self.file) {
+            say::aside(&format!("note: {note}"));
         }
         let stop = interrupt::flag();
         let mut bar = Bar::of_cases(&stop);
@@ -83,7 +77,7 @@ impl Opened {
         let result = erosion::result(&self.file, &self.beside, &self.out).map_err(failure)?;
         output_folder::make(&self.out)?;
         erosion::write(&result, &self.beside, &self.out).map_err(failure)?;
-        let place = self.out.display();
+        let place = say::place(&self.out);
         say::say(&format!(
             "{}\nreport.html, cases.csv and grains.csv are in {place}\n",
             result.table()
@@ -97,6 +91,15 @@ impl Opened {
     /// True where `case` is there.
     pub(crate) fn has(&self, case: &Case) -> bool {
         erosion::is_made(&self.file, &self.beside, case, &self.out)
+    }
+
+    /// How far `case` is.
+    pub(crate) fn stage(&self, case: &Case) -> &'static str {
+        match self.has(case) {
+            true => "there",
+            false if erosion::is_begun(&self.file, &self.beside, case, &self.out) => "begun",
+            false => "-",
+        }
     }
 
     /// That `missing` cases are, and why the `unmade` are.

@@ -9,6 +9,7 @@ use abrade_study::erosion::{self, StudyFile};
 use anyhow::anyhow;
 
 use crate::failure::Failure;
+use crate::part;
 
 /// A kind of file, by the command that reads it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,7 +53,7 @@ pub(crate) fn map(path: &Path, sets: &[String]) -> Result<MapFile, Failure> {
 
 /// A file of whatever kind it is: of several that know as many of its names, of the first that finds no fault.
 pub(crate) fn any(path: &Path, sets: &[String]) -> Result<Read, Failure> {
-    let text = file_text(path, Kind::Scene.name()).map_err(Failure::Scene)?;
+    let text = Kind::Scene.text(path)?;
     let mut faults = Vec::new();
     for kind in Kind::likely(&text) {
         match kind.read(path, text.clone(), sets) {
@@ -60,7 +61,12 @@ pub(crate) fn any(path: &Path, sets: &[String]) -> Result<Read, Failure> {
             Err(error) => faults.push(error),
         }
     }
-    Err(Failure::Scene(faults.swap_remove(0)))
+    Err(part_or(path, faults.swap_remove(0)))
+}
+
+/// That the file at `path` is a part of scenes, or else what is wrong with it.
+fn part_or(path: &Path, error: SceneError) -> Failure {
+    part::told(path).map_or(Failure::Scene(error), |told| Failure::Input(anyhow!(told)))
 }
 
 fn scene_of(path: &Path, text: String, sets: &[String]) -> Result<Checked, SceneError> {
@@ -75,8 +81,12 @@ impl Kind {
         path: &Path,
         read: impl FnOnce(String) -> Result<T, SceneError>,
     ) -> Result<T, Failure> {
-        let text = file_text(path, self.name()).map_err(Failure::Scene)?;
+        let text = self.text(path)?;
         read(text.clone()).map_err(|error| self.refused(path, &text, error))
+    }
+
+    fn text(self, path: &Path) -> Result<String, Failure> {
+        file_text(path, self.name()).map_err(|error| part_or(path, error))
     }
 
     fn read(self, path: &Path, text: String, sets: &[String]) -> Result<Read, SceneError> {
@@ -133,7 +143,7 @@ impl Kind {
             Some(kind) if !likely.contains(&self) => {
                 Failure::Input(anyhow!("{} is a file for `{}`", path.display(), kind.command()))
             }
-            _ => Failure::Scene(error),
+            _ => part_or(path, error),
         }
     }
 }

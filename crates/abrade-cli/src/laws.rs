@@ -117,11 +117,12 @@ fn table(law: &Law, list: Option<&Values<'_>>, results: &[f64], csv: bool) -> St
     match (list, csv) {
         (None, false) => format!("{heading} = {}\n", four_digits(results[0])),
         (None, true) => format!("{heading}\n{:e}\n", results[0]),
-        (Some(Values { parameter, numbers, .. }), true) => {
-            let rows = numbers.iter().zip(results).map(|(at, value)| format!("{at},{value:e}\n"));
-            let name = match parameter.unit {
-                "" => parameter.name.to_owned(),
-                unit => format!("{} [{unit}]", parameter.name),
+        (Some(list), true) => {
+            let (unit, column) = list.column();
+            let rows = column.iter().zip(results).map(|(at, value)| format!("{at},{value:e}\n"));
+            let name = match unit {
+                "" => list.parameter.name.to_owned(),
+                unit => format!("{} [{unit}]", list.parameter.name),
             };
             format!("{name},{heading}\n{}", rows.collect::<String>())
         }

@@ -17,6 +17,7 @@ mod interrupt;
 mod kind;
 mod laws;
 mod output_folder;
+mod part;
 mod progress;
 mod render;
 mod run;
@@ -24,6 +25,7 @@ mod say;
 mod scene_text;
 mod schema;
 mod study;
+mod study_text;
 mod sweep;
 mod view;
 

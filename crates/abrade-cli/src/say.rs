@@ -1,6 +1,7 @@
 //! Text for the standard output stream, and lines for the standard error stream.
 
 use std::io::{ErrorKind, Write};
+use std::path::Path;
 
 use abrade_report::quantity_text::count;
 use anyhow::Context;
@@ -11,6 +12,13 @@ use crate::failure::Failure;
 pub(crate) fn of_cases(part: usize, all: usize) -> String {
     let are = if all == 1 { "is" } else { "are" };
     format!("{part} of {} {are}", count(all, "case", "cases"))
+}
+
+/// A folder as a command takes it: in quotes where a shell would take it apart.
+pub(crate) fn place(folder: &Path) -> String {
+    let text = folder.display().to_string();
+    let is_plain = |c: char| c.is_alphanumeric() || "/\\:._-+=@%,".contains(c);
+    if text.chars().all(is_plain) { text } else { format!("\"{text}\"") }
 }
 
 /// Tells `line` on the standard error stream. Work goes on where nobody reads it, or the disk behind it is full.

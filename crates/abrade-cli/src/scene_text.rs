@@ -76,7 +76,8 @@ pub(crate) fn line(checked: &Checked) -> String {
     format!("scene, {}", parts.join(", "))
 }
 
-fn row(name: &str, text: String) -> String {
+/// What a row tells, below its name.
+pub(crate) fn row(name: &str, text: String) -> String {
     format!("{name:<8} {text}\n")
 }
 

@@ -27,7 +27,7 @@ pub(crate) fn convergence(arguments: &ConvergenceArguments) -> Result<(), Failur
     let study = study(&scene.scene, &scene.sets, &plan, &mut bar);
     bar.clear();
     let study = study.map_err(failure)?;
-    let place = plan.folder.display();
+    let place = say::place(&plan.folder);
     say::say(&format!("{}\nstudy.csv and study.png are in {place}\n", study.table()))?;
     match study.interrupted {
         true => Err(Failure::Interrupted(Rest::Figures)),

@@ -28,7 +28,7 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let cases = arguments.part.choose(opened.file.cases(), |case| case.number)?;
     let unmade = opened.make(&cases)?;
     let there = opened.file.cases().iter().filter(|case| opened.has(case)).count();
-    let place = opened.out.display();
+    let place = say::place(&opened.out);
     say::say(&format!("{} in {place}\n", say::of_cases(there, all)))?;
     match unmade.is_empty() {
         true => Ok(()),
@@ -39,12 +39,12 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
 fn list(opened: &Opened) -> Result<(), Failure> {
     let mut text = String::new();
     for case in opened.file.cases() {
-        let there = if opened.has(&case) { "there" } else { "-" };
+        let stage = opened.stage(&case);
         let angle = digits(case.angle.to_degrees());
         let speed = digits(case.speed);
         let _ = writeln!(
             text,
-            "{:>5}  {there:<5}  {angle:>5} deg {speed:>8} m/s  {}",
+            "{:>5}  {stage:<5}  {angle:>5} deg {speed:>8} m/s  {}",
             case.number, case.grain
         );
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use abrade::{Body, Surface, SurfaceError};
+use abrade::{Body, State, Surface, SurfaceError};
 use nalgebra::Isometry3;
 use thiserror::Error;
 
@@ -148,16 +148,21 @@ impl Checked {
         Ok(BuiltSurface { surface, pose, carrier, path: path.cloned(), stand_in })
     }
 
-    fn build_body(&self, body: &SceneBody, solid: &Solid) -> Option<Body> {
+    /// State of a body at the start, in the world; none for a scene that was changed after its check.
+    pub(crate) fn start(&self, body: &SceneBody, solid: &Solid) -> Option<State> {
         let surface = match body.position.surface() {
             Some(name) => Some((self.scene.surfaces.get(name)?, self.paths.get(name))),
             None => None,
         };
         let local = place::local_state(body, solid, surface.map(|(surface, _)| surface))?;
-        let state = match surface {
-            Some((surface, path)) => local.placed_by(&place::start(surface, path)?),
-            None => local,
-        };
+        match surface {
+            Some((surface, path)) => Some(local.placed_by(&place::start(surface, path)?)),
+            None => Some(local),
+        }
+    }
+
+    fn build_body(&self, body: &SceneBody, solid: &Solid) -> Option<Body> {
+        let state = self.start(body, solid)?;
         let driven = matches!(body.motion, Motion::Drive { .. });
         Some(Body {
             shape: solid.shape.clone(),

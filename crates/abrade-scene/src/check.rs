@@ -27,9 +27,7 @@ use crate::problem::{Mark, Problem, Source, any_of, suggestion};
 use crate::scene::Scene;
 use crate::solid::Solid;
 use crate::spans::{Node, ScenePath};
-
-/// Hardness below which a unit was probably forgotten [Pa].
-const SOFT: f64 = 1e4;
+use crate::{unlikely, way};
 
 /// A scene without a known fault, and the solids of its bodies.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,7 +73,7 @@ pub(crate) fn check(
     checker.check_name();
     checker.check_finite("gravity", &scene.gravity);
     let mut notes = Vec::new();
-    checker.check_materials(&mut notes);
+    checker.check_materials();
     let meshes = checker.check_surfaces(&folder, &mut notes);
     checker.check_copies(&meshes);
     let hardness = checker.check_hardnesses(&folder, &meshes);
@@ -92,6 +90,8 @@ pub(crate) fn check(
     let copied = BTreeMap::new();
     let mut checked =
         Checked { scene, streamed, due, copied, folder, solids, meshes, hardness, paths, notes };
+    let doubts = [unlikely::notes(&checked), way::notes(&checked)];
+    checked.notes.extend(doubts.concat());
     checked.copy_surfaces();
     Ok(checked)
 }
@@ -170,17 +170,10 @@ impl Checker<'_> {
         }
     }
 
-    fn check_materials(&mut self, notes: &mut Vec<String>) {
+    fn check_materials(&mut self) {
         for (name, material) in &self.scene.materials {
             let path = ScenePath::of(["materials", name]);
             self.ranges(&path, material.check().into_iter().map(Some));
-            if material.hardness < SOFT {
-                let hardness = material.hardness;
-                notes.push(format!(
-                    "material `{name}` has a hardness of {hardness} Pa, softer than any solid: a number \
-                     without a unit is in Pa"
-                ));
-            }
         }
     }
 }

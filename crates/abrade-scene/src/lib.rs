@@ -35,7 +35,9 @@ mod solid;
 mod spans;
 mod stiffness;
 mod stream;
+mod unlikely;
 mod unread;
+mod way;
 mod work;
 
 pub use build::{BuildError, Built, BuiltSurface, StandIn};
@@ -53,4 +55,5 @@ pub use scene::Scene;
 pub use size::{Size, SurfaceSize};
 pub use solid::Solid;
 pub use spans::{field_names, path};
+pub use unlikely::{Usual, material_notes};
 pub use unread::unread;

@@ -29,6 +29,7 @@ mod files;
 mod frames;
 mod impacts;
 mod record;
+mod rim;
 mod samples;
 mod single;
 mod stop;

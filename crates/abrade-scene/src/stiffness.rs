@@ -6,6 +6,7 @@ use abrade::{ElasticLaw, Material, Piece};
 
 use crate::check::Checked;
 use crate::scene::{SceneSurface, SurfaceMotion};
+use crate::unlikely;
 
 /// Bounds of H / k_w, over the radius of the body.
 const BOUNDS: [f64; 2] = [1e-4, 2e-2];
@@ -25,6 +26,10 @@ pub(crate) fn yield_overlap(material: &Material, radius: f64) -> f64 {
 /// What to say of a surface called `name` on which E no longer changes the stiffness.
 pub(crate) fn note(name: &str, surface: &SceneSurface, material: &Material) -> Option<String> {
     let ElasticLaw::Foundation { stiffness: None } = surface.elastic else { return None };
+    // A forgotten unit has a note of its own.
+    if unlikely::material_notes(&[], material).next().is_some() {
+        return None;
+    }
     let [low, high] = BOUNDS;
     let bound = match asked(material) {
         asked if asked > high => "2e-2",

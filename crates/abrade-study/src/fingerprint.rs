@@ -1,6 +1,7 @@
 //! A number that tells what a case was made of.
 
 /// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo), the same on every machine.
+#[derive(Clone, Debug)]
 pub(crate) struct Fingerprint(u64);
 
 impl Fingerprint {

@@ -7,6 +7,7 @@
 #![allow(rustdoc::broken_intra_doc_links, reason = "units stand in brackets")]
 
 pub mod adhesive;
+mod case_files;
 pub mod convergence;
 pub mod erosion;
 mod error;

@@ -43,25 +43,29 @@ fn a_map_without_a_case_is_refused() {
     assert!(error.contains("no case") && error.contains("tensile strength"), "{error}");
 }
 
-/// Fails for cases that are made again, or counted as missing, when a map gets another gap or name.
+/// Fails for cases that are made again, or counted as missing, when a map gets another value or name.
 #[test]
 fn a_map_that_is_extended_keeps_its_cases() {
     let folder = tempfile::tempdir().unwrap();
-    let map = |name: &str, ratio: f64, gaps: &str| {
+    let map = |name: &str, ratios: &str, gaps: &str| {
         let text = format!(
-            r#"(version: 1, name: "{name}", bodies: (travel: "1 um"), strength_ratios: [{ratio}],
+            r#"(version: 1, name: "{name}", bodies: (travel: "1 um"), strength_ratios: [{ratios}],
             adhesion_ratios: [0.0, 0.4], gaps: [{gaps}])"#
         );
         adhesive::load_map(&write(folder.path(), &text), &[]).unwrap()
     };
-    let first = map("first", 1.0, "1.2");
+    let first = map("first", "1.0", "1.2");
     adhesive::make(&first, &first.cases(), folder.path(), &mut Patient).unwrap();
     let missing = |file: &adhesive::MapFile| adhesive::result(file, folder.path()).missing();
     assert_eq!(missing(&first), 0);
-    assert_eq!(missing(&map("second", 1.0, "1.2, 1.5")), 2);
+    for (ratios, gaps) in [("1.0", "1.2, 1.5"), ("1.0", "1.1, 1.2"), ("1.3, 1.0", "1.2")] {
+        let more = map("second", ratios, gaps);
+        assert_eq!((missing(&more), adhesive::others(&more, folder.path())), (2, 0), "{gaps}");
+    }
     // Other solids or gaps are other cases.
-    assert_eq!(missing(&map("first", 1.3, "1.2")), 2);
-    assert_eq!(missing(&map("first", 1.0, "1.5")), 2);
+    for other in [map("first", "1.3", "1.2"), map("first", "1.0", "1.5")] {
+        assert_eq!((missing(&other), adhesive::others(&other, folder.path())), (2, 2));
+    }
     let runs =
         adhesive::result(&first, folder.path()).points.iter().map(|p| p.runs).collect::<Vec<_>>();
     assert_eq!(runs, [1, 1]);

@@ -91,8 +91,10 @@ impl Integrator {
         self.pull = Pull::default();
         self.balance = None;
         let held: f64 = self.glue.iter_mut().flatten().map(Glue::let_go).sum();
-        self.ledger.adhesion -= held;
-        self.ledger.history += held;
+        if self.settings.ledger {
+            self.ledger.adhesion -= held;
+            self.ledger.history += held;
+        }
         let lost = std::mem::take(&mut self.ledger.elastic);
         self.ledger.history += lost - unpaid(lost, self.short);
         self.short = 0.0;

@@ -13,7 +13,7 @@ use crate::body::{Body, State};
 use crate::damping::Damping;
 use crate::encounter::{EncounterSettings, Loads, Placed};
 use crate::error::PhysicsError;
-use crate::integrate::{GROWTH, Integrator};
+use crate::integrate::Integrator;
 use crate::ledger::Ledger;
 use crate::reject::rejected;
 use crate::settle::Charge;
@@ -43,8 +43,6 @@ pub struct Carried {
     /// Length of the last step, if it ended in contact [s].
     last: f64,
     evaluations: u64,
-    /// 1 / omega of the last step in contact [s].
-    period_over_tau: f64,
 }
 
 /// What columns will have done in the step ahead.
@@ -125,18 +123,25 @@ impl Carried {
             foreseen: Default::default(),
             last: 0.0,
             evaluations: 0,
-            period_over_tau: 0.0,
         })
     }
 
-    /// Largest overlap of a node with the body [m], surface by surface.
+    /// Largest overlap of a node with the body [m], surface by surface; none of surfaces that it was
+    /// not made with.
     pub fn overlaps(&mut self, body: &Body, surfaces: &[Placed<'_>]) -> Vec<f64> {
+        if self.integrator.fits_at_rest(surfaces).is_err() {
+            return Vec::new();
+        }
         self.integrator.overlaps(body, surfaces).collect()
     }
 
     /// Length of the next step [s]: in contact a share of the period on the springs; out of it
-    /// the time in which no node can be touched under `loads`.
+    /// the time in which no node can be touched under `loads`. Zero between surfaces that it was not
+    /// made with, which [`Carried::meet`] refuses.
     pub fn step(&mut self, body: &Body, surfaces: &[Placed<'_>], loads: &Loads) -> f64 {
+        if self.integrator.fits_at_rest(surfaces).is_err() {
+            return 0.0;
+        }
         // A symplectic step leaves the velocity half a kick behind the position.
         let mut body = Cow::Borrowed(body);
         let pull = self.integrator.pull.spring_force * (0.5 * self.last);
@@ -151,6 +156,9 @@ impl Carried {
     /// The force of springs is scaled so that its impulse is that of half the step before and
     /// half the coming one: symplectic Euler with steps of changing length is then leapfrog.
     pub fn grip(&mut self, body: &Body, surfaces: &[Placed<'_>], dt: f64) -> Grip {
+        if self.integrator.fits_at_rest(surfaces).is_err() {
+            return Grip::default();
+        }
         let share = if self.last > 0.0 { 0.5 * (self.last + dt) / dt } else { 1.0 };
         let pull = self.integrator.pull;
         let mut springs = Grip { force: pull.spring_force, torque: pull.spring_torque } * share;
@@ -235,7 +243,7 @@ impl Carried {
         let Some(Pending { trial, end, dt, allowed, damping }) = self.pending.take() else {
             return Ok(());
         };
-        let before = self.integrator.next_dt;
+        let next_dt = self.integrator.step_after(dt, allowed);
         self.owed = [damping.impulse, damping.torque];
         (self.swept, self.integrator.short) = (self.foreseen.grip, self.foreseen.short);
         self.integrator.book_damping(damping.dissipated);
@@ -243,10 +251,9 @@ impl Carried {
         self.last = if trial.touching > 0 { dt } else { 0.0 };
         if trial.touching > 0 {
             self.integrator.touched = true;
-            self.period_over_tau = allowed / self.integrator.eta;
         }
         self.integrator.lead(body, surfaces, &trial, [end.velocity, end.spin]);
-        self.integrator.next_dt = allowed.min(GROWTH * dt.max(before.min(allowed)));
+        self.integrator.keep_step(next_dt, self.integrator.eta / allowed, trial.touching > 0);
         if self.integrator.touched && self.integrator.contact_is_over(body, surfaces) {
             self.integrator.end_contact(surfaces);
         }
@@ -256,7 +263,9 @@ impl Carried {
     /// Lets go of the surfaces in the middle of a contact: what the springs hold is lost, and
     /// overhangs break off.
     pub fn let_go(&mut self, surfaces: &mut [Placed<'_>]) {
-        self.integrator.let_go(surfaces);
+        if self.integrator.fits_at_rest(surfaces).is_ok() {
+            self.integrator.let_go(surfaces);
+        }
         self.owed = Default::default();
         self.swept = Grip::default();
         self.last = 0.0;
@@ -278,9 +287,10 @@ impl Carried {
         self.integrator.pull.force
     }
 
-    /// Period of the body on the springs that it touches [s]; zero before any contact.
+    /// Period of the body on the springs that it touched last [s]; zero before any contact, and on
+    /// surfaces without springs.
     pub fn period(&self) -> f64 {
-        std::f64::consts::TAU * self.period_over_tau
+        self.integrator.period()
     }
 
     /// Nodes taken through the law so far.
@@ -303,11 +313,10 @@ impl Carried {
     }
 
     pub(crate) fn checked(self) -> Result<Self, Fault> {
-        let times = not_negative(self.last) && not_negative(self.period_over_tau);
         let parts = self.owed.iter().chain([&self.swept.force, &self.swept.torque]);
         let owed = parts.into_iter().all(|part| finite(part.iter()));
         let counted = self.evaluations < u64::MAX / 2;
-        require(times && owed && counted, "a carried body is out of range")?;
+        require(not_negative(self.last) && owed && counted, "a carried body is out of range")?;
         Ok(self)
     }
 }

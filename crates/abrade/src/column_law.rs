@@ -217,7 +217,7 @@ impl ColumnLaw {
             let entry = step
                 .swept
                 .entry(&touched, step.reach)
-                .unwrap_or_else(|| blocked_entry(step, span, &arm));
+                .unwrap_or_else(|| blocked_entry(&way(step, &arm), &span.deep_normal));
             let (price, lateral) = match HEADS {
                 true => self.price.of(&entry, &slot.n, step, &arm),
                 false => (self.price.hardness, 0.0),
@@ -353,14 +353,23 @@ fn slide(step: &Step<'_>, normal: &Vector3<f64>, arm: &Vector3<f64>) -> f64 {
     slip(step, normal, arm).norm() * step.motion.dt
 }
 
-/// Only after a blocked step: the deep end pays; a receding one opposes the motion.
-fn blocked_entry(step: &Step<'_>, span: &Span, arm: &Vector3<f64>) -> Entry {
-    let moved = (step.motion.velocity + step.motion.spin.cross(arm)) * step.motion.dt;
-    let advance = span.deep_normal.dot(&moved);
+/// Way of a point of the body at `arm` over the step [m].
+#[inline]
+fn way(step: &Step<'_>, arm: &Vector3<f64>) -> Vector3<f64> {
+    (step.motion.velocity + step.motion.spin.cross(arm)) * step.motion.dt
+}
+
+/// Only after a blocked step: the deep end pays; a receding one opposes the motion. Where there is
+/// none nothing can pay, whatever the force.
+fn blocked_entry(moved: &Vector3<f64>, deep_normal: &Vector3<f64>) -> Entry {
+    let advance = deep_normal.dot(moved);
     if advance > 0.0 {
-        return Entry { normal: span.deep_normal, displacement: advance };
+        return Entry { normal: *deep_normal, displacement: advance };
     }
-    let length = moved.norm().max(f64::MIN_POSITIVE);
+    let length = moved.norm();
+    if length < f64::MIN_POSITIVE {
+        return Entry { normal: *deep_normal, displacement: 1.0 };
+    }
     Entry { normal: moved / length, displacement: length }
 }
 
@@ -376,5 +385,22 @@ impl ColumnLaw {
             priced && not_negative(friction) && sprung && rubbed,
             "the laws of columns are out of range",
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Fails for a force without a direction, or without a bound, on a body that has stopped to the bit.
+    #[test]
+    fn what_does_not_move_enters_by_its_deep_face() {
+        let down = -Vector3::z();
+        let stopped = blocked_entry(&Vector3::zeros(), &down);
+        assert!(stopped.normal == down && stopped.displacement >= f64::MIN_POSITIVE);
+        assert!((1e6 / stopped.displacement).is_finite());
+        let receding = blocked_entry(&Vector3::new(3.0, 0.0, 4.0), &down);
+        assert_eq!(receding.normal, Vector3::new(0.6, 0.0, 0.8));
+        assert_eq!(receding.displacement, 5.0);
     }
 }

@@ -60,7 +60,10 @@ impl Drive {
             DriveSolution::QuasiStatic { increment } => increment,
         };
         [self.indent_to, self.load, increment].iter().all(|x| x.is_finite() && *x > 0.0)
-            && [self.speed, self.distance].iter().all(|x| x.is_finite() && *x >= 0.0)
+            && self.distance >= 0.0
+            && (self.distance == 0.0 || self.speed > 0.0)
+            && self.speed.is_finite()
+            && self.distance.is_finite()
     }
 }
 
@@ -87,8 +90,8 @@ impl Driven {
         settings: EncounterSettings,
     ) -> Result<Self, PhysicsError> {
         if !drive.is_sound() {
-            let what = "a drive's loads and increment must be above zero, its speed and distance \
-                        not below, all of them finite";
+            let what = "a drive's loads and increment must be above zero, its distance not below, its \
+                        speed above zero where it slides, all of them finite";
             return Err(PhysicsError::Unsupported { what });
         }
         body.rotation_locked = true;
@@ -195,7 +198,7 @@ impl Driven {
         duration: f64,
         observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
-        if duration <= 0.0 {
+        if duration <= 0.0 || self.is_done() {
             return Ok(Advance::default());
         }
         let left = (self.drive.distance - self.travelled) / self.drive.speed;

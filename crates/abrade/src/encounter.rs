@@ -225,9 +225,10 @@ impl Encounter {
         }
     }
 
-    /// Period of the body on the springs that it touches [s]; zero before any contact.
+    /// Period of the body on the springs that it touched last [s]; zero before any contact, and on
+    /// surfaces without springs.
     pub fn period(&self) -> f64 {
-        std::f64::consts::TAU * self.integrator.next_dt / self.integrator.eta
+        self.integrator.period()
     }
 
     /// Per surface, the box around the undeformed nodes whose depths were read since the last

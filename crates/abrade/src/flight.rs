@@ -84,25 +84,25 @@ pub(crate) fn box_time(
     inflation: f64,
 ) -> f64 {
     if let Some((centre, radius)) = surface.ball() {
-        return ball_time(body, local, &centre, radius, acceleration);
+        return ball_time(body, local, &centre, [radius, inflation], acceleration);
     }
     let turning = local.spin.norm() * turning_reach(body);
     let time = |(gap, approach)| time_to_close(gap, approach + turning, acceleration);
     gaps(surface, body, local, inflation).map(time).into_iter().fold(0.0, f64::max)
 }
 
-/// Time until the body can come into the ball around a solid [s]. Where it is large beside the
-/// solid, only what is near counts: within twice the ball.
+/// Time until the body can come within `inflation` of the ball around a solid [s]. Where it is large
+/// beside the solid, only what is near counts: within a radius of that.
 fn ball_time(
     body: &Body,
     local: &State,
     centre: &Point3<f64>,
-    radius: f64,
+    [radius, inflation]: [f64; 2],
     acceleration: f64,
 ) -> f64 {
-    let gap = clearance(&body.shape, local, centre) - radius;
+    let gap = clearance(&body.shape, local, centre) - radius - inflation;
     let velocity = local.velocity + local.spin.cross(&(centre - local.position));
-    let near = velocity.norm() + local.spin.norm() * 2.0 * radius;
+    let near = velocity.norm() + local.spin.norm() * (2.0 * radius + inflation);
     let whole = local.velocity.norm() + local.spin.norm() * turning_reach(body);
     time_to_close(gap.min(radius), near.min(whole), acceleration)
 }

@@ -30,7 +30,9 @@ const ETA_ACCURACY: f64 = 3e-3;
 /// Hard cap of eta; the linear stability limit is 1.18.
 const ETA_LIMIT: f64 = 0.7;
 /// Growth of the step from one to the next.
-pub(crate) const GROWTH: f64 = 2.0;
+const GROWTH: f64 = 2.0;
+/// Longest step that is asked for [s], where no spring bounds it.
+const LONGEST: f64 = 1e9;
 /// First step into contact, in yield overlaps travelled.
 const FLOOR: f64 = 0.1;
 /// Share of a step below which the turning point is not worth a step of its own.
@@ -56,6 +58,8 @@ pub(crate) struct Integrator {
     renewals: Vec<u32>,
     /// Step that the last contact asked for [s]; zero when there is none.
     pub(crate) next_dt: f64,
+    /// Inverse of the angular frequency on the springs that were touched last [s]; zero for none.
+    pub(crate) tau: f64,
     /// What the contacts do to the body at the present instant.
     pub(crate) pull: Pull,
     pub(crate) touching: bool,
@@ -137,6 +141,10 @@ impl Integrator {
         let dynamics = Dynamics::new(&body.inertia, body.rotation_locked).ok_or(
             PhysicsError::Unsupported { what: "the body's mass or inertia is not positive" },
         )?;
+        if !(settings.accuracy > 0.0 && settings.accuracy.is_finite()) {
+            let what = "the accuracy of a contact must be above zero and finite";
+            return Err(PhysicsError::Unsupported { what });
+        }
         let node_counts = pairs.iter().map(|(_, surface)| surface.nodes().len()).collect();
         let renewals = pairs.iter().map(|(_, surface)| surface.renewals()).collect();
         let glues = pairs.iter().any(|(_, surface)| surface.laws.adhesion.is_some());
@@ -155,6 +163,7 @@ impl Integrator {
             node_counts,
             renewals,
             next_dt: 0.0,
+            tau: 0.0,
             pull: Pull::default(),
             touching: false,
             touched: false,
@@ -371,13 +380,32 @@ impl Integrator {
                 continue;
             }
             self.touched |= touches;
-            // A step cut short at a turning point says nothing of the next one.
-            self.next_dt = allowed.min(GROWTH * dt.max(self.next_dt.min(allowed)));
+            let next_dt = self.step_after(dt, allowed);
+            self.keep_step(next_dt, omega, trial.touching > 0);
             self.accept(body, surfaces, loads, dt, trial, done);
             self.check_depth(body, surfaces)?;
             self.check_balance(body, surfaces)?;
             return Ok(dt);
         }
+    }
+
+    /// Length of the step after one of `dt`, where springs allow `allowed` [s].
+    pub(crate) fn step_after(&self, dt: f64, allowed: f64) -> f64 {
+        // A step cut short at a turning point says nothing of the next one.
+        allowed.min(GROWTH * dt.max(self.next_dt.min(allowed)))
+    }
+
+    /// Keeps the length of the next step [s], and the angular frequency [1/s] on springs that are touched.
+    pub(crate) fn keep_step(&mut self, dt: f64, omega: f64, touches: bool) {
+        self.next_dt = dt.min(LONGEST);
+        if touches {
+            self.tau = if omega > 0.0 { 1.0 / omega } else { 0.0 };
+        }
+    }
+
+    /// Period on the springs that were touched last [s]; zero for none.
+    pub(crate) fn period(&self) -> f64 {
+        std::f64::consts::TAU * self.tau
     }
 
     /// Largest overlap of a node with the body [m], surface by surface.
@@ -399,7 +427,8 @@ impl Integrator {
     pub(crate) fn checked(mut self) -> Result<Self, Fault> {
         let EncounterSettings { accuracy, .. } = self.settings;
         let steps = positive(accuracy) && positive(self.eta) && self.eta <= ETA_LIMIT;
-        require(steps && not_negative(self.next_dt), "the steps of a contact are out of range")?;
+        let steps = steps && not_negative(self.next_dt) && not_negative(self.tau);
+        require(steps, "the steps of a contact are out of range")?;
         self.dynamics.check()?;
         let counts = [self.node_counts.len(), self.renewals.len()];
         let same = counts == [self.contacts.len(); 2];

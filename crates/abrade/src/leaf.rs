@@ -110,8 +110,8 @@ impl Leaf {
 }
 
 impl Changes {
-    /// Changes that bring nodes of a surface to these depths [m], without volumes. [`Surface::apply`] panics
-    /// where it has no such node.
+    /// Changes that bring nodes of a surface down to these depths [m], without volumes; deeper ones stay
+    /// where they are. [`Surface::apply`] panics where it has no such node.
     pub fn to_depths(depths: Vec<(u32, f64)>) -> Self {
         Self { depths, gain: Worn::default() }
     }
@@ -137,8 +137,9 @@ impl Changes {
     pub(crate) fn write(&self, depth: &mut [f64]) -> f64 {
         let mut deepest = 0.0f64;
         for (id, new) in &self.depths {
-            depth[*id as usize] = *new;
-            deepest = deepest.max(*new);
+            let depth = &mut depth[*id as usize];
+            *depth = depth.max(*new);
+            deepest = deepest.max(*depth);
         }
         deepest
     }

@@ -171,12 +171,13 @@ impl Pressed {
     ) -> Result<Advance, PhysicsError> {
         self.integrator.fits_at_rest(placed)?;
         let is_sound = |x: f64| x > 0.0 && x.is_finite();
-        if !(is_sound(hold.increment) && is_sound(hold.duration)) {
-            let what = "increment and duration of a hold must be above zero and finite";
+        let load = hold.load.norm();
+        if !(is_sound(hold.increment) && is_sound(hold.duration) && load.is_finite()) {
+            let what =
+                "increment and duration of a hold must be above zero, and with its load finite";
             return Err(PhysicsError::Unsupported { what });
         }
-        let load = hold.load.norm();
-        let Some(down) = hold.load.try_normalize(0.0).filter(|_| load.is_finite()) else {
+        let Some(down) = hold.load.try_normalize(0.0) else {
             return Ok(Advance { time: hold.duration, ..Advance::default() });
         };
         if !self.integrator.touched {
@@ -196,7 +197,9 @@ impl Pressed {
 
     /// Ends the contact: what its springs hold is lost, and overhangs break off.
     pub fn end(&mut self, surfaces: &mut [Placed<'_>]) {
-        self.integrator.let_go(surfaces);
+        if self.integrator.fits(surfaces).is_ok() {
+            self.integrator.let_go(surfaces);
+        }
     }
 
     /// Force of the surfaces on the body at the end of the last increment [N].

@@ -97,8 +97,9 @@ impl Dimension {
         let text = text.trim();
         let (number, unit) = text.split_at(number_end(text));
         let (number, unit) = (number.trim(), unit.trim());
-        let value = value_of(number)
-            .ok_or_else(|| format!("`{text}` does not start with a number; {}", self.expected()))?;
+        let value = value_of(number).ok_or_else(|| {
+            format!("`{text}` does not start with a finite number; {}", self.expected())
+        })?;
         if unit.is_empty() {
             return Err(format!("`{text}` has no unit; {}", self.expected()));
         }
@@ -187,16 +188,14 @@ fn number_end(text: &str) -> usize {
     end
 }
 
-/// A number or a quotient of two.
+/// A number or a quotient of two, if it is finite.
 fn value_of(number: &str) -> Option<f64> {
     let number = number.replace('_', "");
-    match number.split_once('/') {
-        None => number.parse().ok(),
-        Some((above, below)) => {
-            let (above, below): (f64, f64) = (above.parse().ok()?, below.parse().ok()?);
-            Some(above / below)
-        }
-    }
+    let value: f64 = match number.split_once('/') {
+        None => number.parse().ok()?,
+        Some((above, below)) => above.parse::<f64>().ok()? / below.parse::<f64>().ok()?,
+    };
+    value.is_finite().then_some(value)
 }
 
 impl<'de> DeserializeSeed<'de> for Dimension {
@@ -324,7 +323,14 @@ mod tests {
         let expected = "expected a pressure in Pa, kPa, MPa or GPa";
         assert_eq!(refusal("6.6"), format!("`6.6` has no unit; {expected}"));
         assert_eq!(refusal("6 mm"), format!("`mm` does not measure a pressure; {expected}"));
-        assert_eq!(refusal("GPa"), format!("`GPa` does not start with a number; {expected}"));
+        assert_eq!(
+            refusal("GPa"),
+            format!("`GPa` does not start with a finite number; {expected}")
+        );
+        assert_eq!(
+            refusal("1/0 GPa"),
+            format!("`1/0 GPa` does not start with a finite number; {expected}")
+        );
         assert_eq!(
             refusal("6 Gpa"),
             format!("`Gpa` does not measure a pressure; {expected}; did you mean `GPa`?")

@@ -301,11 +301,11 @@ impl Integrator {
         for (((placed, ride), answer), hand) in carriers.zip(&mut self.hands) {
             let (Some(carrier), Some(ride)) = (&placed.carrier, ride) else { continue };
             work += match &carrier.inertia {
-                Some(inertia) => {
+                Some(inertia) if !ride.dynamics.is_immovable() => {
                     let pull = carrier.loads.pull(inertia);
                     pull.dot(&ride.shift) + carrier.loads.torque.dot(&ride.turn)
                 }
-                None => {
+                _ => {
                     let before = reaction(&hand.springs, &body.state, &carrier.state) * (0.5 * dt);
                     let after = reaction(&answer.springs, end, &ride.end) * (0.5 * dt);
                     let swept = reaction(&hand.swept, end, &ride.end);
@@ -380,7 +380,7 @@ impl Integrator {
             let (Some(carrier), Some(ride)) = (&mut placed.carrier, ride) else { continue };
             carrier.state = ride.end;
             placed.pose = ride.pose;
-            if carrier.inertia.is_some() {
+            if !ride.dynamics.is_immovable() {
                 let before = carrier.kinetic_energy();
                 carrier.state.velocity /= 1.0 + dt * carrier.loads.linear_damping;
                 carrier.state.spin /= 1.0 + dt * carrier.loads.angular_damping;

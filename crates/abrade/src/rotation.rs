@@ -24,6 +24,8 @@ pub(crate) struct Dynamics {
     pub inverse_mass: f64,
     tensor: Matrix3<f64>,
     inverse: Matrix3<f64>,
+    /// Largest angular answer to a torque [1/(kg m2)].
+    agility: f64,
     isotropic: bool,
     locked: bool,
     /// The only direction in which forces move a guided body.
@@ -51,6 +53,10 @@ impl Dynamics {
             inverse_mass: 1.0 / inertia.mass,
             tensor,
             inverse,
+            agility: match isotropic {
+                true => inverse.m11,
+                false => inverse.symmetric_eigenvalues().max(),
+            },
             isotropic,
             locked,
             guide: None,
@@ -63,6 +69,7 @@ impl Dynamics {
             inverse_mass: 0.0,
             tensor: Matrix3::identity(),
             inverse: Matrix3::zeros(),
+            agility: 0.0,
             isotropic: true,
             locked: false,
             guide: None,
@@ -126,7 +133,7 @@ impl Dynamics {
 
     /// Largest angular answer to a torque [1/(kg m2)].
     pub(crate) fn agility(&self) -> f64 {
-        self.inverse.diagonal().max()
+        self.agility
     }
 
     /// Moves `state` freely through `dt`; returns the mid-step spin.
@@ -174,7 +181,8 @@ impl Dynamics {
     pub(crate) fn check(&self) -> Result<(), Fault> {
         let guide = self.guide.unwrap_or_default();
         let numbers = self.tensor.iter().chain(self.inverse.iter()).chain(guide.iter());
-        let fine = not_negative(self.inverse_mass) && finite(numbers);
+        let answers = [self.inverse_mass, self.agility].into_iter().all(not_negative);
+        let fine = answers && finite(numbers);
         require(fine, "a mass or inertia in contact is out of range")
     }
 }

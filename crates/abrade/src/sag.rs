@@ -10,9 +10,9 @@ impl Surface {
     /// it is let down along minus the surface's normal from `centre`. Flat surfaces alone: zero
     /// where normals differ.
     pub fn sag_under_ball(&self, centre: &Point3<f64>, radius: f64) -> f64 {
-        let Some(n) = self.level().filter(|_| self.worn().max_depth > 0.0) else { return 0.0 };
+        let Some(n) = self.level().filter(|_| self.deepest() > 0.0) else { return 0.0 };
         // A node farther out than this cannot be the first that the ball touches.
-        let deepest = (self.worn().max_depth + self.pitch() * self.pitch() / radius).min(radius);
+        let deepest = (self.deepest() + self.pitch() * self.pitch() / radius).min(radius);
         let reach = (deepest * (2.0 * radius - deepest)).sqrt() + self.pitch();
         let (mut rest, mut worn) = (f64::INFINITY, f64::INFINITY);
         self.visit_around(centre, reach, |x, depth| {
@@ -31,7 +31,7 @@ impl Surface {
     /// Smallest depth of the nodes within `reach` [m] of `point`, seen along the normal [m]: how
     /// deep a corner comes to lie there. Zero where there is no node, or normals differ.
     pub fn sag_at(&self, point: &Point3<f64>, reach: f64) -> f64 {
-        let Some(n) = self.level().filter(|_| self.worn().max_depth > 0.0) else { return 0.0 };
+        let Some(n) = self.level().filter(|_| self.deepest() > 0.0) else { return 0.0 };
         let mut smallest = f64::INFINITY;
         self.visit_around(point, reach, |x, depth| {
             let arm: Vector3<f64> = x - point;
@@ -54,7 +54,7 @@ impl Surface {
         let [bottom, top] = self.bounds();
         let (mut low, mut high) = (point - Vector3::repeat(reach), point + Vector3::repeat(reach));
         (low.z, high.z) = (low.z.min(bottom.z), high.z.max(top.z));
-        let nodes = self.nodes();
-        self.grid().visit(&low, &high, |i| show(nodes.rest_position[i], nodes.depth[i]));
+        let rest = &self.nodes().rest_position;
+        self.grid().visit(&low, &high, |i| show(rest[i], self.depth(i)));
     }
 }

@@ -283,7 +283,8 @@ impl Integrator {
             push,
         };
         self.touching = trial.touching > 0;
-        self.next_dt = self.eta / self.omega(trial);
+        let omega = self.omega(trial);
+        self.keep_step(self.eta / omega, omega, self.touching);
     }
 }
 

@@ -13,8 +13,8 @@ impl Surface {
     /// has worn.
     pub fn sublattice_scatter(&self) -> Option<f64> {
         let Layout::Strip { columns_rows: [_, rows] } = self.layout else { return None };
-        let depths = &self.nodes().depth;
-        let total: f64 = depths.iter().sum();
+        let depths = || (0..self.nodes().len()).map(|node| self.depth(node));
+        let total: f64 = depths().sum();
         if total <= 0.0 {
             return None;
         }
@@ -22,7 +22,7 @@ impl Surface {
         for stride in STRIDES {
             let lattices = (stride * stride) as f64;
             let mut sums = [0.0; 9];
-            for (node, depth) in depths.iter().enumerate().filter(|(_, depth)| **depth > 0.0) {
+            for (node, depth) in depths().enumerate().filter(|(_, depth)| *depth > 0.0) {
                 sums[(node / rows) % stride * stride + (node % rows) % stride] += depth;
             }
             let coarser = (STRIDES[0] as f64 / stride as f64).powi(4);

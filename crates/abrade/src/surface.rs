@@ -190,14 +190,10 @@ impl Surface {
     /// of the surface is as near.
     ///
     /// # Errors
-    /// A parameter out of range, too many nodes.
+    /// A parameter out of range, or a mesh that bounds no solid.
     pub fn mesh(mesh: &TriangleMesh, laws: SurfaceLaws) -> Result<Self, SurfaceError> {
         if let Some(error) = laws.check().into_iter().next() {
             return Err(error);
-        }
-        let nodes = mesh.vertices().len() as f64;
-        if nodes > NODE_LIMIT {
-            return Err(SurfaceError::TooManyNodes { nodes, limit: NODE_LIMIT });
         }
         Self::closed(mesh.nodes(), mesh.triangles(), mesh.pitch(), laws)
             .ok_or(SurfaceError::NoNodes { reason: "the mesh bounds no solid".into() })

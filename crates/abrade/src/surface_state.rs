@@ -37,13 +37,15 @@ impl From<Surface> for SurfaceState {
     fn from(surface: Surface) -> Self {
         let layout = match (surface.columns_rows(), surface.facets()) {
             (Some(columns_rows), _) => {
-                LayoutState::Strip { columns_rows, area: surface.nodes.rest_area[0] }
+                LayoutState::Strip { columns_rows, area: surface.nodes().rest_area[0] }
             }
             (None, facets) => LayoutState::Mesh {
-                vertices: surface.nodes.rest_position.clone(),
+                vertices: surface.nodes().rest_position.clone(),
                 triangles: facets.unwrap_or_default().to_vec(),
             },
         };
+        // A leaf is written as the surface that it has become.
+        let depth = (0..surface.nodes().len()).map(|i| surface.depth(i)).collect();
         Self {
             layout,
             pitch: surface.pitch(),
@@ -51,7 +53,7 @@ impl From<Surface> for SurfaceState {
             laws: surface.laws,
             worn: surface.worn,
             gain: surface.gain,
-            depth: surface.nodes.depth,
+            depth,
             past: surface.past.map(Arc::unwrap_or_clone),
             sunk: surface.sunk.map(|sunk| sunk.sorted()),
         }

@@ -139,9 +139,9 @@ fn onto_a_renewed_block(step_limit: u64) -> Run<Encounter> {
 }
 
 /// A body pressed in and ready to slide.
-fn scratch(solution: DriveSolution, step_limit: u64) -> Run<Driven> {
-    let mut surface = plate(SPRINGS, 1.0);
-    let mut body = landing(Shape::ball(0.5).expect("a ball"), SPRINGS, 1.0, step_limit).body;
+fn scratch(elastic: ElasticLaw, solution: DriveSolution, step_limit: u64) -> Run<Driven> {
+    let mut surface = plate(elastic.clone(), 1.0);
+    let mut body = landing(Shape::ball(0.5).expect("a ball"), elastic, 1.0, step_limit).body;
     let (indent_to, load) = (0.02, 0.02);
     let drive = Drive { indent_to, load, speed: 0.2, distance: 0.4, mass: 0.02, solution };
     let settings = EncounterSettings { ledger: true, step_limit, ..Default::default() };
@@ -186,9 +186,11 @@ fn a_run_goes_on_from_its_bytes_to_the_bit() {
     let worn = |surface: &Surface| (0..surface.nodes().len()).any(|i| surface.worn_depth(i) > 0.0);
     assert!(worn(&run.surface) && run.surface.worn().max_depth > 0.0);
     goes_on("renewed block", run, [0.1, 1.5]);
-    goes_on("dynamic scratch", scratch(DriveSolution::Dynamic, MANY), [0.3, 0.5]);
-    let creep = DriveSolution::QuasiStatic { increment: 0.01 };
-    goes_on("creeping scratch", scratch(creep, MANY), [0.3, 0.5]);
+    let (dynamic, creep) = (DriveSolution::Dynamic, DriveSolution::QuasiStatic { increment: 0.01 });
+    goes_on("dynamic scratch", scratch(SPRINGS, dynamic, MANY), [0.3, 0.5]);
+    for elastic in [SPRINGS, ElasticLaw::Rigid] {
+        goes_on("creeping scratch", scratch(elastic, creep, MANY), [0.3, 0.5]);
+    }
 }
 
 /// Fails for a check that is missing: what is read is advanced, whatever it is.
@@ -221,8 +223,8 @@ fn damaged_bytes_are_refused_or_can_be_stepped() {
         survives(landing(shape, elastic, 0.5, FEW), 0.06);
     }
     survives(onto_a_renewed_block(FEW), 0.06);
-    survives(scratch(DriveSolution::Dynamic, FEW), 0.1);
-    survives(scratch(DriveSolution::QuasiStatic { increment: 0.01 }, FEW), 0.1);
+    survives(scratch(SPRINGS, DriveSolution::Dynamic, FEW), 0.1);
+    survives(scratch(SPRINGS, DriveSolution::QuasiStatic { increment: 0.01 }, FEW), 0.1);
 }
 
 /// Fails for candidates that are looked up in a surface that lacks them.
@@ -235,4 +237,19 @@ fn another_surface_is_refused() {
     run.surface = Surface::hex_strip(strip, run.surface.laws().clone()).expect("a plate");
     let error = run.go(0.1).unwrap_err();
     assert!(matches!(error, PhysicsError::Unsupported { .. }), "{error}");
+}
+
+/// Fails for a leaf that is written without the nodes of the surface below, or without its own wear.
+#[test]
+fn a_leaf_is_written_as_the_surface_that_it_has_become() {
+    let [(_, shape, elastic), ..] = shapes();
+    let mut run = landing(shape, elastic, 1.0, MANY);
+    run.surface = Surface::leaf(&std::sync::Arc::new(run.surface));
+    run.go(1.5).expect("a blow");
+    let bytes = postcard::to_stdvec(&run.surface).expect("bytes");
+    let read: Surface = postcard::from_bytes(&bytes).expect("a surface");
+    assert!(run.surface.wear_volume() > 0.0);
+    let depths = |s: &Surface| (0..s.nodes().len()).map(|i| s.depth(i)).collect::<Vec<_>>();
+    assert_eq!(depths(&run.surface), depths(&read));
+    assert_eq!(run.surface.sublattice_scatter(), read.sublattice_scatter());
 }

@@ -24,6 +24,12 @@ const ROWS: u32 = 21;
 /// Points of a curve.
 const POINTS: u32 = 600;
 
+/// What draws the models, below their list.
+const DRAWN: &str = "\
+to draw one:       abrade laws contact MODEL NAME=VALUE.. --out FILE.png
+their pull-off:    abrade laws contact --limits --out FILE.png
+";
+
 /// A model, and what it was made with.
 struct Asked {
     law: &'static Law,
@@ -42,7 +48,14 @@ pub(super) fn contact(arguments: &ContactArguments) -> Result<(), Failure> {
         return limits::limits(arguments.csv, arguments.out.as_deref());
     }
     let models = all().filter(|law| law.is_contact());
-    let Some(name) = &arguments.model else { return say(&list(models)) };
+    let Some(name) = &arguments.model else {
+        if arguments.out.is_some() || arguments.csv {
+            return Err(refused(
+                "there is nothing to show: name a model, or ask for --limits".into(),
+            ));
+        }
+        return say(&format!("{}\n{DRAWN}", list(models)));
+    };
     let asked = Asked::new(find("contact model", name, models)?, &arguments.given)?;
     let rows = asked.displacements.clone().unwrap_or_else(|| asked.span(ROWS));
     let table = asked.walk(rows)?;

@@ -13,6 +13,26 @@ pub(super) struct Values<'a> {
     pub(super) numbers: Vec<f64>,
 }
 
+impl Values<'_> {
+    /// A unit and the values in it: that in which all were given, or that of SI.
+    pub(super) fn column(&self) -> (&str, Vec<String>) {
+        let parts = self.texts.iter().map(|text| number_and_unit(text));
+        let (numbers, units): (Vec<&str>, Vec<&str>) = parts.unzip();
+        match units.first() {
+            Some(&unit) if !unit.is_empty() && units.iter().all(|other| *other == unit) => {
+                (unit, numbers.into_iter().map(str::to_owned).collect())
+            }
+            _ => (self.parameter.unit, self.numbers.iter().map(f64::to_string).collect()),
+        }
+    }
+}
+
+/// The two parts of a text that was read: no unit begins like a number goes on.
+fn number_and_unit(text: &str) -> (&str, &str) {
+    let unit = text.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE".contains(c));
+    (text[..text.len() - unit.len()].trim(), unit.trim())
+}
+
 /// Reads `NAME=VALUE` or `NAME=VALUE, VALUE, ..`.
 pub(super) fn values<'a>(law: &Law, text: &'a str) -> Result<Values<'a>, Failure> {
     let (name, list) = named(text)?;

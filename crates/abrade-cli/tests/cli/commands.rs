@@ -20,6 +20,53 @@ time     a second or less
     assert_eq!(folder.files(), ["scene.ron"]);
 }
 
+/// Fails for a study that is told as a number of cases alone, or with the wrong bounds.
+#[test]
+fn check_says_what_a_study_holds() {
+    let folder = Folder::new("check_study");
+    folder.write("study.ron", crate::studies::EROSION);
+    let sets = ["--set", "angles=[\"30 deg\", \"90 deg\"]", "--set", "samples.most=10"];
+    let said = folder.abrade(&[&["check", "study.ron"], &sets[..]].concat());
+    assert_eq!(
+        said.out,
+        "study    two grains
+cases    4: every grain at every speed and angle
+grains   2: ball, cube; a sphere of 200 um
+speeds   1: 98 m/s
+angles   2: 30, 90 deg
+impacts  16 to 40 in all, 4 to 10 in each case; the plate is fresh for every impact
+",
+        "{}",
+        said.err
+    );
+}
+
+/// Fails for a file that a scene names and that is told as a scene with faults.
+#[test]
+fn files_that_scenes_name_are_told_as_such() {
+    let folder = Folder::new("parts");
+    folder.write("pair.csv", "x,y,z,r\n-0.5,0,0,1\n0.5,0,0,1\n");
+    folder.write("a.stl", "solid a\nendsolid a\n");
+    std::fs::write(folder.0.join("b.STL"), [0xff; 90]).unwrap();
+    folder.write("notes.txt", "(version: 1, name: 3)");
+    for (file, told) in [
+        ("pair.csv", "pair.csv is no scene: its numbers are those of a clump of 2 spheres, which"),
+        ("pair.csv", "`shape: Clump(file: \"pair.csv\")`"),
+        (
+            "a.stl",
+            "a.stl is a mesh: a scene takes it as a surface with `geometry: Mesh(file: \"a.stl\")`",
+        ),
+        ("b.STL", "b.STL is a mesh: "),
+        ("notes.txt", "notes.txt:1:20"),
+    ] {
+        for command in ["check", "run"] {
+            let said = folder.abrade(&[command, file]);
+            assert_eq!((said.code, said.out.as_str()), (Some(2), ""));
+            assert!(said.err.contains(told), "{command}: {}", said.err);
+        }
+    }
+}
+
 #[test]
 fn clump_looks_a_file_over_and_converts_it() {
     let folder = Folder::new("clump");

@@ -6,16 +6,22 @@ use super::Folder;
 #[test]
 fn a_run_that_replaces_another_one_says_so() {
     let folder = Folder::new("earlier");
-    let place = "runs/scene";
+    let place = "runs/a scene";
+    folder.write("a scene.ron", super::SCENE);
     let set = ["--set", "outputs=[History(every: \"1 us\")]"];
-    let run = || folder.abrade(&[&["run", "scene.ron"], &set[..]].concat());
+    let run = || folder.abrade(&[&["run", "a scene.ron"], &set[..]].concat());
     let first = run();
     assert_eq!((first.code, first.err.as_str()), (Some(0), ""));
     let again = run();
     assert_eq!(again.code, Some(0));
     let (begin, end) = ("note: replaces the run `Oblique impact of a ball` of ", " ago in ");
     assert!(again.err.starts_with(begin), "{}", again.err);
-    assert!(again.err.ends_with(&format!("{end}{place}; --out DIR keeps both\n")), "{}", again.err);
+    assert!(
+        again.err.ends_with(&format!("{end}\"{place}\"; --out DIR keeps both\n")),
+        "{}",
+        again.err
+    );
+    assert!(again.out.ends_with(&format!(" in \"{place}\"\n")), "{}", again.out);
     // What a run leaves that was killed while it wrote its last files is no reason to ask.
     std::fs::remove_file(folder.0.join(place).join("summary.json")).unwrap();
     let history = folder.0.join(place).join("history.csv");
@@ -90,6 +96,35 @@ fn a_folder_of_something_else_is_left_alone() {
         assert_eq!(said.err, told, "{arguments:?}");
         assert_eq!(held_by(), before, "{arguments:?}");
     }
+}
+
+/// Fails for a study that puts its files among those of a run, and for a run that does so among those of a study.
+#[test]
+fn a_study_and_a_run_do_not_share_a_folder() {
+    let folder = Folder::new("shared");
+    folder.write("study.ron", crate::studies::EROSION);
+    folder.write("map.ron", crate::adhesive::MAP);
+    let into =
+        |out: &str, arguments: &[&str]| folder.abrade(&[arguments, &["--out", out]].concat());
+    let run = ["run", "scene.ron", "--set", "outputs=[]"];
+    let study = ["study", "erosion", "study.ron"];
+    assert_eq!(into("a", &run).code, Some(0));
+    assert_eq!(into("b", &study).code, Some(0));
+    let convergence = ["study", "convergence", "scene.ron"];
+    for arguments in [&study[..], &convergence, &["adhesive", "map", "map.ron"]] {
+        let said = into("a", arguments);
+        let told = "error: the output folder `a` holds the run `Oblique impact of a ball`: name another one \
+                    with --out, or empty it\n";
+        assert_eq!((said.code, said.err.as_str()), (Some(2), told), "{arguments:?}");
+    }
+    let said = into("b", &run);
+    assert_eq!(said.code, Some(2));
+    assert!(said.err.contains("holds files that are no run's of abrade"), "{}", said.err);
+    // A run that was broken off has no summary.
+    std::fs::remove_file(folder.0.join("a/summary.json")).unwrap();
+    let said = into("a", &study);
+    assert_eq!(said.code, Some(2));
+    assert!(said.err.contains("holds a run that was broken off"), "{}", said.err);
 }
 
 /// Fails for a run that ends where nobody reads what it tells beside its results.

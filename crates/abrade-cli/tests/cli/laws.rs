@@ -2,8 +2,8 @@
 
 use super::Folder;
 
-/// Fails for a law that takes degrees for radians or a unit for another, and for a list that is not
-/// walked through.
+/// Fails for a law that takes degrees for radians or a unit for another, for a list that is not walked through, and for
+/// one that is told in a unit in which nobody gave it.
 #[test]
 fn a_law_is_evaluated_where_it_is_asked_for() {
     let folder = Folder::new("laws");
@@ -13,8 +13,16 @@ fn a_law_is_evaluated_where_it_is_asked_for() {
     assert_eq!(finnie(&["angle=30 deg"]).out, "volume [m3] = 5.787e-14\n");
     let said = finnie(&["angle=30 deg, 90 deg", "--csv"]);
     let rows: Vec<_> = said.out.lines().collect();
-    assert_eq!(rows[..2], ["angle [rad],volume [m3]", "0.5235987755982988,5.787037037037038e-14"]);
+    assert_eq!(rows[..2], ["angle [deg],volume [m3]", "30,5.787037037037038e-14"]);
     assert_eq!(rows.len(), 3);
+    for mixed in ["angle=30 deg, 1", "angle=30deg, 1 rad"] {
+        let said = finnie(&[mixed, "--csv"]);
+        let rows: Vec<_> = said.out.lines().collect();
+        assert_eq!(
+            rows[..2],
+            ["angle [rad],volume [m3]", "0.5235987755982988,5.787037037037038e-14"]
+        );
+    }
     let said = folder.abrade(&["laws", "--list"]);
     for law in ["archard\n", "oka-quartz\n", "status: seen; from memory"] {
         assert!(said.out.contains(law), "{}", said.out);
@@ -113,7 +121,7 @@ fn a_contact_takes_the_materials_of_its_sides() {
     assert!((rigid / wanted - 1.0).abs() < 1e-12, "{rigid} for {wanted}");
 }
 
-/// Fails for a picture that is not written, and for limits that are not DMT's and JKR's.
+/// Fails for a picture that is not written, or not without a word, and for limits that are not DMT's and JKR's.
 #[test]
 fn contacts_and_their_limits_are_drawn() {
     let folder = Folder::new("contact pictures");
@@ -130,6 +138,11 @@ fn contacts_and_their_limits_are_drawn() {
     assert_eq!([first[2], first[4]], [-2.0, -1.5]);
     assert!((first[3] + 2.0).abs() < 1e-4 && (last[3] + 1.5).abs() < 1e-4, "{first:?}, {last:?}");
     assert!(rows.windows(2).all(|pair| pair[0][3] < pair[1][3]));
+    let list = folder.abrade(&["laws", "contact"]).out;
+    assert!(list.contains("abrade laws contact --limits --out FILE.png"), "{list}");
+    let nothing = folder.abrade(&["laws", "contact", "--out", "c.png"]);
+    assert_eq!(nothing.code, Some(2));
+    assert!(nothing.err.contains("name a model, or ask for --limits"), "{}", nothing.err);
     assert_eq!(folder.files(), ["a.png", "b.png", "scene.ron"]);
 }
 

@@ -46,7 +46,7 @@ pub(crate) const EROSION: &str = r#"(version: 1, name: "two grains",
   samples: (least: 4, most: 4))"#;
 
 /// Fails for a study that has to be made again, whose parts do not come to the same, that a merge before its first
-/// case keeps from being made, or that replaces cases of another one without a word.
+/// case keeps from being made, that makes cases again which it has, or that leaves others among its own without a word.
 #[test]
 fn an_erosion_study_is_made_whole_or_in_parts() {
     let folder = Folder::new("erosion");
@@ -84,7 +84,35 @@ fn an_erosion_study_is_made_whole_or_in_parts() {
     let again = folder.abrade(&["study", "erosion", "study.ron"]);
     assert_eq!((again.code, again.err.as_str()), (Some(0), ""));
     let changed = folder.abrade(&["study", "erosion", "study.ron", "--set", "samples.most=5"]);
-    assert!(changed.err.starts_with("note: 2 cases are in "), "{}", changed.err);
+    let note = "note: 2 cases are in runs/study of the study before it changed: ";
+    assert!(changed.err.starts_with(note), "{}", changed.err);
+    let angles = ["--set", "angles=[\"20 deg\", \"30 deg\"]"];
+    let more = folder.abrade(&[&["sweep", "study.ron", "--list"][..], &angles].concat()).out;
+    let stages: Vec<_> = more.lines().map(|line| line[7..12].trim().to_owned()).collect();
+    assert_eq!(stages, ["-", "there", "-", "there"]);
+    // What the file of a case that is under way holds is that of a case, and the plate.
+    let case = std::fs::read_dir(folder.0.join("b/cases")).unwrap().next().unwrap().unwrap().path();
+    let text = std::fs::read_to_string(&case).unwrap() + "{\"depths_m\":[]}\n";
+    std::fs::write(case.with_extension("begun.jsonl"), text).unwrap();
+    std::fs::remove_file(case).unwrap();
+    let list = sweep(&["--out", "b", "--list"]).out;
+    assert!(list.contains("0  begun") && list.contains("1  -"), "{list}");
+}
+
+/// Fails for a volume of nothing that is told as a number with an interval, or by a word that nobody explains.
+#[test]
+fn no_debris_is_told_as_none() {
+    let folder = Folder::new("erosion_none");
+    folder.write("study.ron", EROSION);
+    let said = folder.abrade(&["study", "erosion", "study.ron", "--out", "out"]);
+    let rows: Vec<_> = said.out.lines().filter(|line| line.starts_with("      30")).collect();
+    // By the removal rule a ball leaves no debris below a critical angle of 35 degrees, and a cube does.
+    assert!(rows[0].contains(" none ") && !rows[1].contains("none"), "{}", said.out);
+    let page = std::fs::read_to_string(folder.0.join("out/report.html")).unwrap();
+    assert!(page.contains("<td>none</td>") && !page.contains("0 ± 0<"));
+    for legend in ["none: the removal rule takes no debris", "none: ball leaves none"] {
+        assert!(page.contains(legend), "{legend}");
+    }
 }
 
 /// One that ran first and looked later would leave a folder.

@@ -106,7 +106,8 @@ impl Striker {
         let far = sunk(&placed[0]) + MISS * placed[0].surface.pitch();
         let mut touched = false;
         for _ in 0..LOOKS {
-            let time = if touched { fly.min(PERIOD * encounter.period()) } else { fly };
+            let period = encounter.period();
+            let time = if period > 0.0 { fly.min(PERIOD * period) } else { fly };
             let (loads, until) = (Loads::default(), Until::FirstExit);
             let done = encounter.advance(&mut self.body, placed, &loads, time, until, &mut ())?;
             outcome.steps += done.steps;

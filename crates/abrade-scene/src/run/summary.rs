@@ -16,6 +16,7 @@ use crate::run::engine::Engine;
 use crate::run::entries::entries;
 use crate::run::estimate;
 use crate::run::fate::{Fate, fate};
+use crate::run::rim;
 use crate::run::stop::End;
 use crate::run::{Precision, RunError};
 use crate::scene::Output;
@@ -160,6 +161,17 @@ fn warnings(run: &Run<'_>) -> Vec<String> {
         };
         let touching = count(touching, "node", "nodes");
         warnings.push(format!("the largest contact on `{name}` was carried by {touching}: {cure}"));
+    }
+    for (index, (name, _)) in scenes.iter().enumerate() {
+        let cure = match rim::reached(run.engine.surface(index)) {
+            [false, false] => continue,
+            [true, false] => "longer",
+            [false, true] => "wider",
+            [true, true] => "longer and wider",
+        };
+        warnings.push(format!(
+            "the wear on `{name}` reaches the rim of the plate, beyond which there is nothing to wear: make it {cure}"
+        ));
     }
     let tracks = run.bodies.tracks.iter().enumerate().filter(|(_, track)| !track.is_streamed);
     for (index, track) in tracks {

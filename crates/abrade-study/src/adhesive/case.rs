@@ -1,6 +1,6 @@
 //! The cases of a map: one collision each. A case depends on nothing but its solid and bodies; it lies in a
 //! file of its own, which appears when it is complete, so that a map that is broken off, made in parts, or
-//! given another gap or name, goes on where it is.
+//! given another value or name, goes on where it is.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -14,6 +14,7 @@ use serde_json::{Value, json};
 
 use super::file::MapFile;
 use super::summary::figures_json;
+use crate::case_files;
 use crate::error::StudyError;
 use crate::fingerprint::Fingerprint;
 
@@ -91,7 +92,7 @@ pub fn make(
     out: &Path,
     progress: &mut dyn Progress,
 ) -> Result<(), StudyError> {
-    let folder = out.join("cases");
+    let folder = case_files::folder(out);
     std::fs::create_dir_all(&folder).map_err(|source| ReportError::File {
         action: FileAction::Create,
         path: folder.clone(),
@@ -166,6 +167,13 @@ pub fn is_made(file: &MapFile, case: &Case, out: &Path) -> bool {
     read(file, case, out).is_some()
 }
 
+/// Number of cases in the results folder `out` that are of another map, or of this one before it or the
+/// program's version changed. They stay there.
+pub fn others(file: &MapFile, out: &Path) -> usize {
+    let own = file.cases().iter().map(|case| file.fingerprint(case)).collect();
+    case_files::others(out, &own)
+}
+
 /// Takes the cases that are in the results folder `from` over into `out`.
 ///
 /// # Errors
@@ -184,12 +192,12 @@ pub fn gather(file: &MapFile, from: &Path, out: &Path) -> Result<(), StudyError>
     }
 }
 
-fn path(case: &Case, out: &Path) -> PathBuf {
-    out.join("cases").join(format!("{:05}.json", case.number))
+fn path(file: &MapFile, case: &Case, out: &Path) -> PathBuf {
+    case_files::folder(out).join(file.fingerprint(case) + ".json")
 }
 
 fn write(file: &MapFile, case: &Case, made: &Made, out: &Path) -> Result<(), ReportError> {
-    let path = path(case, out);
+    let path = path(file, case, out);
     let folder = path.parent().unwrap_or(out).to_owned();
     std::fs::create_dir_all(&folder).map_err(|source| ReportError::File {
         action: FileAction::Create,
@@ -199,7 +207,6 @@ fn write(file: &MapFile, case: &Case, made: &Made, out: &Path) -> Result<(), Rep
     let value = json!({
         "study": file.name,
         "fingerprint": file.fingerprint(case),
-        "case": case.number,
         "mode": made.as_ref().map(|figures| figures.mode().name()).ok(),
         "figures": made.as_ref().map(figures_json).ok(),
         "failure": made.as_ref().err(),
@@ -209,10 +216,9 @@ fn write(file: &MapFile, case: &Case, made: &Made, out: &Path) -> Result<(), Rep
 
 /// What an earlier run has made of `case`, if that was of its solid and bodies.
 pub(crate) fn read(file: &MapFile, case: &Case, out: &Path) -> Option<Made> {
-    let text = std::fs::read_to_string(path(case, out)).ok()?;
+    let text = std::fs::read_to_string(path(file, case, out)).ok()?;
     let value: Value = serde_json::from_str(&text).ok()?;
-    let is_own = value["fingerprint"] == file.fingerprint(case) && value["case"] == case.number;
-    if !is_own {
+    if value["fingerprint"] != file.fingerprint(case) {
         return None;
     }
     match value["failure"].as_str() {

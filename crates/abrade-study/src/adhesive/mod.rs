@@ -15,7 +15,7 @@ mod series;
 mod summary;
 mod write;
 
-pub use case::{Case, gather, is_made, make};
+pub use case::{Case, gather, is_made, make, others};
 pub use check::{load_map, load_map_text, load_scene, load_scene_text};
 pub use file::{MapFile, SceneFile, VERSION};
 pub use fit::Boundary;

@@ -1,5 +1,5 @@
 //! The cases of a study: one grain at one speed and angle each, with as many impacts as it takes. A case
-//! depends on nothing but the study's file, so that cases can be made in any order, anywhere.
+//! depends on no other one, so that cases can be made in any order, anywhere.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -76,14 +76,6 @@ impl StudyFile {
             }
         }
         cases
-    }
-
-    /// Files that the study names.
-    pub(crate) fn files(&self) -> impl Iterator<Item = &str> {
-        self.grains.values().filter_map(|grain| match &grain.form {
-            Form::Mesh { file } | Form::Clump { file } => Some(file.as_str()),
-            _ => None,
-        })
     }
 
     /// The grain of this `name` that meets sample `k`.

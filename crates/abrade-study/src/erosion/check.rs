@@ -5,7 +5,7 @@ use std::path::Path;
 use abrade::{NODE_LIMIT, ParameterError, SurfaceError};
 use abrade_report::quantity_text::digits;
 use abrade_scene::scene::Form;
-use abrade_scene::{Document, FileKind, SceneError, file_text, name_fault};
+use abrade_scene::{Document, FileKind, SceneError, Usual, file_text, material_notes, name_fault};
 
 use super::file::{Plate, StudyFile, VERSION};
 
@@ -35,6 +35,17 @@ pub fn load_text(path: &Path, text: String, sets: &[String]) -> Result<StudyFile
         file.reference = sphere.map(|(name, _)| name.clone());
     }
     Ok(file)
+}
+
+/// Values of a study without a fault that no solid has.
+pub fn notes(file: &StudyFile) -> Vec<String> {
+    let material = material_notes(&["target", "material"], &file.target.material);
+    let others = [
+        file.target.density.and_then(|rho| Usual::DENSITY.note(&["target", "density"], rho)),
+        Usual::DENSITY.note(&["density"], file.density),
+        Usual::GRAIN.note(&["size", "diameter"], file.size.diameter()),
+    ];
+    material.chain(others.into_iter().flatten()).collect()
 }
 
 fn check_target(document: &mut Document<StudyFile>) {

@@ -29,7 +29,7 @@ use abrade_report::atomic;
 use abrade_scene::Progress;
 
 pub use case::{Case, CaseError, Made, Unmade};
-pub use check::{load, load_text};
+pub use check::{load, load_text, notes};
 pub use descriptors::Descriptors;
 pub use file::{Plate, Samples, Sequence, Size, StudyFile, Target, VERSION};
 pub use impact::Impact;
@@ -95,10 +95,16 @@ pub fn is_made(file: &StudyFile, beside: &Path, case: &Case, out: &Path) -> bool
     Store::new(file, beside, out).read(case).is_some()
 }
 
+/// True when `case` has begun in the results folder `out`, and is not made yet.
+pub fn is_begun(file: &StudyFile, beside: &Path, case: &Case, out: &Path) -> bool {
+    let store = Store::new(file, beside, out);
+    store.read(case).is_none() && store.begun(case).is_some()
+}
+
 /// Number of cases in the results folder `out` that are of another study, or of this one before it, a
-/// file that it names or the program's version changed: making a case replaces its file.
+/// file that it names or the program's version changed. They stay there.
 pub fn others(file: &StudyFile, beside: &Path, out: &Path) -> usize {
-    Store::new(file, beside, out).others()
+    Store::new(file, beside, out).others(&file.cases())
 }
 
 /// Takes the cases that are in the results folder `from` over into `out`.

@@ -10,7 +10,7 @@ use super::quantities::STILL;
 use super::sensitivity::Sensitivity;
 use super::statistics::Estimate;
 use super::summary::{CaseResult, Erosion};
-use super::table::{fixed, percent, told};
+use super::table::{NOTHING, fixed, percent, told};
 
 impl Erosion {
     /// The page, with these pictures.
@@ -119,7 +119,7 @@ impl Erosion {
             note: format!(
                 "Energy in wear is a share of that before the impact. Restitution is speed after over speed \
                  before, and the same of its parts; a grain turns on if its rim goes round, the way a wheel \
-                 rolls, at more than {STILL} of its speed."
+                 rolls, at more than {STILL} of its speed. {NOTHING}: the removal rule takes no debris of any impact."
             ),
             head: head.map(str::to_owned).to_vec(),
             rows: cases.map(row).collect(),
@@ -162,10 +162,15 @@ impl Erosion {
         let head = cells("grain", &|column| degrees(at[0].ratios[column].0));
         let row = |s: &&Sensitivity| cells(&s.grain, &|column| sign(&s.ratios[column].1));
         Some(Part::Table {
-            heading: format!("Debris of {reference} over that of the grain at {}, by critical angle", degrees(*nearest)),
-            note: "Debris is what faces cut at an angle of attack above the critical one, and chips. Factors of \
-                   shape in use are those of E/CRC: 0.2 for round and 0.53 for rounded sand, 1 for angular."
-                .into(),
+            heading: format!(
+                "Debris of {reference} over that of the grain at {}, by critical angle",
+                degrees(*nearest)
+            ),
+            note: format!(
+                "Debris is what faces cut at an angle of attack above the critical one, and chips; {NOTHING}: \
+                 {reference} leaves none. Factors of shape in use are those of E/CRC: 0.2 for round and 0.53 for \
+                 rounded sand, 1 for angular."
+            ),
             head,
             rows: at.iter().map(row).collect(),
         })

@@ -1,27 +1,27 @@
-//! The file of a case: a line of JSON that says which case of which study it is, then a line per impact.
-//! It appears under its name when it is complete, so that a study that is broken off, or made in parts,
-//! goes on where it is. Beside it lies, until then, the file of a case that is under way.
+//! The file of a case: a line of JSON that says what it is of, then a line per impact. It appears under its
+//! name when it is complete, so that a study that is broken off, or made in parts, or given another grain, speed
+//! or angle, goes on where it is. Beside it lies, until then, the file of a case that is under way.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use abrade_report::{FileAction, ReportError, atomic};
+use abrade_scene::scene::Form;
 use serde::{Deserialize, Serialize};
 
 use super::begun::Begun;
 use super::case::{Case, Impacts, Made};
 use super::file::StudyFile;
 use super::impact::Impact;
+use crate::case_files;
 use crate::fingerprint::Fingerprint;
 
 /// First line of a case's file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Head {
     study: String,
-    /// Of the version, the study and its files.
     fingerprint: String,
-    case: usize,
     grain: String,
     speed_m_s: f64,
     angle_rad: f64,
@@ -46,31 +46,24 @@ struct Plate {
 /// Where the cases of a study lie.
 #[derive(Clone, Debug)]
 pub(crate) struct Store {
-    folder: PathBuf,
+    out: PathBuf,
     study: String,
-    fingerprint: String,
+    /// What all cases of a grain have in common, by its name.
+    grains: BTreeMap<String, Fingerprint>,
 }
 
 impl Store {
     /// The store of `file` below the results folder `out`; files that the study names lie in `beside`.
     pub(crate) fn new(file: &StudyFile, beside: &Path, out: &Path) -> Self {
-        Self {
-            folder: out.join("cases"),
-            study: file.name.clone(),
-            fingerprint: fingerprint(file, beside),
-        }
+        let of_grain = |name: &String| (name.clone(), fingerprint(file, name, beside));
+        let grains = file.grains.keys().map(of_grain).collect();
+        Self { out: out.to_owned(), study: file.name.clone(), grains }
     }
 
-    /// Number of files of cases that are there, whole or begun, but not of this study as it is.
-    pub(crate) fn others(&self) -> usize {
-        let files = std::fs::read_dir(&self.folder).into_iter().flatten().flatten();
-        let head = |path: PathBuf| -> Option<Head> {
-            let mut first = String::new();
-            BufReader::new(std::fs::File::open(path).ok()?).read_line(&mut first).ok()?;
-            serde_json::from_str(&first).ok()
-        };
-        let heads = files.filter_map(|file| head(file.path()));
-        heads.filter(|head| head.fingerprint != self.fingerprint).count()
+    /// Number of cases that are there, whole or begun, and not among `cases`.
+    pub(crate) fn others(&self, cases: &[Case]) -> usize {
+        let own = cases.iter().map(|case| self.fingerprint(case)).collect();
+        case_files::others(&self.out, &own)
     }
 
     /// Writes a case that was made; what was kept of it goes.
@@ -101,9 +94,10 @@ impl Store {
     }
 
     fn put(&self, path: &Path, text: &str) -> Result<(), ReportError> {
-        std::fs::create_dir_all(&self.folder).map_err(|source| ReportError::File {
+        let folder = case_files::folder(&self.out);
+        std::fs::create_dir_all(&folder).map_err(|source| ReportError::File {
             action: FileAction::Write,
-            path: self.folder.clone(),
+            path: folder.clone(),
             source,
         })?;
         atomic::write(path, text.as_bytes())
@@ -112,8 +106,7 @@ impl Store {
     fn text(&self, case: &Case, pitch: f64, impacts: &Impacts) -> serde_json::Result<String> {
         let head = Head {
             study: self.study.clone(),
-            fingerprint: self.fingerprint.clone(),
-            case: case.number,
+            fingerprint: self.fingerprint(case),
             grain: case.grain.clone(),
             speed_m_s: case.speed,
             angle_rad: case.angle,
@@ -132,7 +125,7 @@ impl Store {
         Ok(text)
     }
 
-    /// What an earlier run has made of `case`, if that was of this study.
+    /// What an earlier run has made of `case`, if that was of the same.
     pub(crate) fn read(&self, case: &Case) -> Option<Made> {
         let text = std::fs::read_to_string(self.path(case)).ok()?;
         let (head, lines) = self.open(case, &text)?;
@@ -140,7 +133,7 @@ impl Store {
         (impacts.len() == head.impacts).then_some(Made { pitch: head.pitch_m, impacts })
     }
 
-    /// What an earlier run has kept of `case`, if that was of this study.
+    /// What an earlier run has kept of `case`, if that was of the same.
     pub(crate) fn begun(&self, case: &Case) -> Option<Begun> {
         let text = std::fs::read_to_string(self.path_under_way(case)).ok()?;
         let (head, mut lines) = self.open(case, &text)?;
@@ -154,16 +147,22 @@ impl Store {
     fn open<'a>(&self, case: &Case, text: &'a str) -> Option<(Head, std::str::Lines<'a>)> {
         let mut lines = text.lines();
         let head: Head = serde_json::from_str(lines.next()?).ok()?;
-        let is_it = head.fingerprint == self.fingerprint && head.case == case.number;
-        is_it.then_some((head, lines))
+        (head.fingerprint == self.fingerprint(case)).then_some((head, lines))
     }
 
     fn path(&self, case: &Case) -> PathBuf {
-        self.folder.join(format!("{:04}.jsonl", case.number))
+        case_files::folder(&self.out).join(self.fingerprint(case) + ".jsonl")
     }
 
     fn path_under_way(&self, case: &Case) -> PathBuf {
-        self.folder.join(format!("{:04}.begun.jsonl", case.number))
+        case_files::folder(&self.out).join(self.fingerprint(case) + ".begun.jsonl")
+    }
+
+    /// Of all that a case depends on: neither its number nor the names of study and grain.
+    fn fingerprint(&self, case: &Case) -> String {
+        let mut hash = self.grains.get(&case.grain).expect("a case of this study").clone();
+        hash.add(format!("{:?} {:?}", case.speed, case.angle).as_bytes());
+        hash.text()
     }
 }
 
@@ -184,13 +183,30 @@ fn unwritten(path: &Path) -> impl Fn(serde_json::Error) -> ReportError {
     }
 }
 
-/// A number that changes with version, study and files that it names.
-fn fingerprint(file: &StudyFile, beside: &Path) -> String {
+/// What all cases of the grain of this `name` are made of: version, grain and its file, target, settings.
+fn fingerprint(file: &StudyFile, name: &str, beside: &Path) -> Fingerprint {
+    let StudyFile {
+        version: _,
+        name: _,
+        target,
+        grains,
+        reference: _,
+        density,
+        size,
+        speeds: _,
+        angles: _,
+        plate,
+        samples,
+        resolution,
+        accuracy,
+    } = file;
+    let grain = &grains[name];
+    let settings = (density, size, plate, samples, resolution, accuracy);
     let mut hash = Fingerprint::new();
-    hash.add(format!("{file:?}").as_bytes());
-    for name in file.files() {
+    hash.add(format!("{grain:?} {target:?} {settings:?}").as_bytes());
+    if let Form::Mesh { file } | Form::Clump { file } = &grain.form {
         // A file that cannot be read is refused when its grain is made.
-        hash.add(&std::fs::read(beside.join(name)).unwrap_or_default());
+        hash.add(&std::fs::read(beside.join(file)).unwrap_or_default());
     }
-    hash.text()
+    hash
 }

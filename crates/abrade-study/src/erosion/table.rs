@@ -173,6 +173,8 @@ pub(crate) fn percent(value: f64, places: usize) -> String {
 
 /// What stands where there is no value.
 const NONE: &str = "-";
+/// What stands for a volume that is zero: no impact displaced or lost any.
+pub(crate) const NOTHING: &str = "none";
 
 /// Value +- half width, to the digits that the half width leaves.
 pub(crate) fn told(estimate: &Estimate) -> String {
@@ -180,10 +182,13 @@ pub(crate) fn told(estimate: &Estimate) -> String {
     if !value.is_finite() {
         return NONE.to_owned();
     }
+    if value == 0.0 {
+        return NOTHING.to_owned();
+    }
     if !half_width.is_finite() {
         return digits(value);
     }
-    if half_width == 0.0 || value == 0.0 {
+    if half_width == 0.0 {
         return format!("{} +- {half_width}", digits(value));
     }
     let places = (1.0 - half_width.log10().floor()).clamp(0.0, 6.0) as usize;

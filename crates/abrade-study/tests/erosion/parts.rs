@@ -1,6 +1,6 @@
 //! Cases are made in parts, in any order, and again.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use abrade_scene::Progress;
 use abrade_study::StudyError;
@@ -13,6 +13,18 @@ const ANGLES: &str = "\"20 deg\", \"70 deg\"";
 
 fn small() -> StudyFile {
     study(&text(GRAINS, ANGLES, 6))
+}
+
+/// The file of `case` below the results folder `out`, in which it is.
+fn path_of(case: &Case, out: &Path) -> PathBuf {
+    let entries = std::fs::read_dir(out.join("cases")).expect("cases").flatten();
+    let is_it = |path: &PathBuf| {
+        let text = std::fs::read_to_string(path).expect("a case");
+        let line = text.lines().next().expect("a head");
+        let head: serde_json::Value = serde_json::from_str(line).expect("a head");
+        head["grain"] == case.grain && head["angle_rad"] == case.angle
+    };
+    entries.map(|entry| entry.path()).find(is_it).expect("the case")
 }
 
 fn table(file: &StudyFile, out: &Path) -> String {
@@ -79,7 +91,7 @@ fn a_study_goes_on_where_it_was_broken_off() {
     let out = folder.path();
     let cases = file.cases();
     make(&file, &cases[..2], out);
-    let path = out.join("cases/0001.jsonl");
+    let path = path_of(&cases[1], out);
     let (text_before, made) = (std::fs::read(&path).expect("a case"), std::fs::metadata(&path));
     let written = made.expect("a case").modified().expect("a time");
     let stopped = erosion::make(&file, Path::new(""), &cases, out, &mut Stop);
@@ -96,6 +108,34 @@ fn a_study_goes_on_where_it_was_broken_off() {
     let mut other = file.clone();
     other.target.material.hardness *= 1.01;
     assert!(!erosion::is_made(&other, Path::new(""), &cases[1], out));
+}
+
+/// Fails for a study that makes its cases again because it was given one more, or that takes one of other impacts
+/// for its own; and for one that loses cases of what it was before.
+#[test]
+fn cases_are_known_wherever_they_stand() {
+    let few = small();
+    let folder = tempfile::tempdir().expect("a folder");
+    let (out, beside) = (folder.path(), Path::new(""));
+    make(&few, &few.cases(), out);
+    // Another angle, grain and speed before those that are there, so that no case keeps its number.
+    let grains = format!("\"cube\": (form: Polyhedron(kind: Cube)), {GRAINS}");
+    let more = text(&grains, &format!("\"10 deg\", {ANGLES}"), 6).replace("[98.1]", "[50.0, 98.1]");
+    let more = study(&more.replace("name: \"", "name: \"more "));
+    let is_there = |case: &Case| erosion::is_made(&more, beside, case, out);
+    let id = |case: &Case| (case.grain.clone(), case.speed, case.angle);
+    let is_old = |case: &Case| few.cases().iter().any(|old| id(old) == id(case));
+    let cases = more.cases();
+    assert_eq!(cases.len(), 18);
+    assert!(cases.iter().all(|case| is_there(case) == is_old(case)));
+    assert_eq!(erosion::others(&more, beside, out), 0);
+    let before = table(&few, out);
+    let mut finer = few.clone();
+    finer.accuracy = 1e-4;
+    assert!(!few.cases().iter().any(|case| erosion::is_made(&finer, beside, case, out)));
+    assert_eq!(erosion::others(&finer, beside, out), 4);
+    make(&finer, &few.cases(), out);
+    assert_eq!(table(&few, out), before);
 }
 
 /// Keeps what it is told.
@@ -124,7 +164,7 @@ fn cases_that_are_there_count_from_the_start() {
     let folder = tempfile::tempdir().expect("a folder");
     let cases = file.cases();
     make(&file, &cases[2..], folder.path());
-    let orphan = folder.path().join("cases/0003.begun.jsonl");
+    let orphan = path_of(&cases[3], folder.path()).with_extension("begun.jsonl");
     std::fs::write(&orphan, "{}").expect("a file");
     let mut told = Told::default();
     erosion::make(&file, Path::new(""), &cases, folder.path(), &mut told).expect("cases");
@@ -144,8 +184,9 @@ fn a_case_goes_on_within_itself_with_the_same_bits() {
         let (cases, folder) = (file.cases(), tempfile::tempdir().expect("a folder"));
         let [whole, parts] = ["whole", "parts"].map(|name| folder.path().join(name));
         make(&file, &cases, &whole);
-        let bytes = |out: &Path| std::fs::read(out.join("cases/0000.jsonl")).expect("a case");
-        let begun = parts.join("cases/0000.begun.jsonl");
+        let bytes = |out: &Path| std::fs::read(path_of(&cases[0], out)).expect("a case");
+        let name = path_of(&cases[0], &whole).with_extension("begun.jsonl");
+        let begun = parts.join("cases").join(name.file_name().expect("a name"));
         let lines = |text: &str| text.lines().count();
         let mut count = 0;
         // A share of the case each time; the second finds half a file.
