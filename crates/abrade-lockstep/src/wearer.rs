@@ -271,14 +271,15 @@ impl Wearer {
     }
 }
 
-/// The surfaces that `uses` names, lowered by `lifts` [m].
+/// The surfaces that `uses` names, in its order, lowered by `lifts` [m].
 fn own<'a>(surfaces: &'a mut [Placed<'_>], uses: &[usize], lifts: &[f64]) -> Vec<Placed<'a>> {
     let mut own = Vec::with_capacity(uses.len());
     for (at, placed) in surfaces.iter_mut().enumerate() {
         let Some(order) = uses.iter().position(|used| *used == at) else { continue };
         let lift = lifts.get(order).copied().unwrap_or(0.0);
         let pose = placed.pose * Translation3::new(0.0, 0.0, -lift);
-        own.push(Placed::at_rest(&mut *placed.surface, pose));
+        own.push((order, Placed::at_rest(&mut *placed.surface, pose)));
     }
-    own
+    own.sort_unstable_by_key(|(order, _)| *order);
+    own.into_iter().map(|(_, placed)| placed).collect()
 }
