@@ -59,6 +59,7 @@ mod observer;
 mod obstacle;
 mod path;
 mod print;
+mod pull;
 mod quasi_static;
 mod query_collider;
 mod register;

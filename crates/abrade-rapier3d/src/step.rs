@@ -222,8 +222,8 @@ impl WearWorld {
         gate::lie(&self.surfaces, world, &self.bodies, times, &mut self.lies);
         let mut picked = std::mem::take(&mut self.picked);
         let Current { sight, contacts, .. } = self.current;
-        let span = Span { dt: sight, gravity: gravity.norm(), contacts };
-        self.glances.pick(world.bodies, world.colliders, &self.lies, span, &mut picked);
+        let span = Span { dt: sight, gravity: *gravity, contacts };
+        self.glances.pick(world, &self.bodies, &self.lies, span, &mut picked);
         for &handle in &picked {
             let Some(rb) = world.bodies.get(handle) else { continue };
             if gate::may_wake(rb) {
