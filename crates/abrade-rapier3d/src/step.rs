@@ -105,6 +105,7 @@ impl WearWorld {
                 self.before.note(&world, &self.bodies, &self.held, may_wake || is_crowded);
             }
             self.steer(&mut world, &gravity);
+            self.drop_driven(world.bodies);
             if !self.driven.is_empty() {
                 let colliders = &*world.colliders;
                 let pose = |worn: &WornCollider| {

@@ -4,6 +4,7 @@
 mod closed;
 mod collision;
 mod crowd;
+mod drive;
 mod gate;
 mod hail;
 mod hooks;
