@@ -13,6 +13,7 @@ use crate::calm::{Calm, normal_speed};
 const IN_PLACE: f64 = 1e-2;
 
 /// A body that wears the island's surfaces.
+#[derive(Clone)]
 pub struct Wearer {
     /// The body in the island's world.
     pub handle: RigidBodyHandle,
@@ -102,6 +103,16 @@ impl Wearer {
         let seen = self.contact.node_evaluations();
         let beyond = None;
         Self { handle, loads, impulse, contact_time, worn, beyond, booked, seen, uses, ..self }
+    }
+
+    /// Lets go of its `own` surfaces, in the order in which it named them, wherever it is: what its
+    /// springs hold is lost, and overhangs break off. Returns what that changed of its energies.
+    pub fn end(mut self, own: &mut [Placed<'_>]) -> Ledger {
+        let before = *self.contact.ledger();
+        self.contact.let_go(own);
+        let mut change = *self.contact.ledger();
+        change -= before;
+        change
     }
 
     /// True when it rests on a contact of Rapier's.

@@ -1,4 +1,5 @@
-//! One step of the embedder's world: choose, resolve, steer, engine, settle, collide, renew.
+//! One step of the embedder's world: choose, ahead, resolve, steer, engine, settle,
+//! collide, renew.
 
 use abrade::Until;
 use nalgebra::{Isometry3, Vector3};
@@ -194,6 +195,7 @@ impl WearWorld {
         self.obstacles.clear();
         self.neighbours.clear();
         self.changed.clear();
+        self.surfaces.iter_mut().for_each(|worn| worn.broken = false);
     }
 
     /// What the bodies near a surface may run into, each other included.
@@ -286,17 +288,17 @@ impl WearWorld {
         gravity: &Vector3<f64>,
     ) {
         let (bodies, colliders) = (&*world.bodies, &*world.colliders);
-        let (surfaces, dt) = (&self.surfaces, self.current.dt);
+        let dt = self.current.dt;
         let tracked = Tracked::slot(&mut self.bodies, handle);
-        let lost = tracked.drop_lost_shadow(rb);
+        if tracked.drop_lost_shadow(rb) {
+            tracked.end(&mut self.surfaces, &mut self.closed, &mut self.events);
+        }
+        let surfaces = &self.surfaces;
         let mut course = Course::of(rb, tracked, gravity);
         let Current { sight, contacts, .. } = self.current;
         course.near(&self.lies, surfaces, [sight, contacts], &mut tracked.near);
         tracked.near.retain(|id| gate::feels(rb, &surfaces[id.0], colliders));
         course.surfaces_speed = gate::top_speed(&self.lies, &tracked.near);
-        if lost {
-            self.closed += tracked.end(&mut self.events);
-        }
         let Some(&first) = tracked.near.first() else {
             return tracked.leave(&mut self.surfaces, &mut self.closed, &mut self.events);
         };

@@ -9,6 +9,7 @@ mod gate;
 mod hail;
 mod hooks;
 mod independence;
+mod leave;
 mod lying;
 mod query_collider;
 mod query_tiles;
