@@ -53,8 +53,9 @@ impl Filter {
         wearing.uses.contains(&place).then_some(wearing.rests)
     }
 
-    /// The surface on which one of a pair rests, if it does.
-    pub fn rest(
+    /// Whether one of a pair rests on the other, the proxy of a surface that it wears; None for any
+    /// other pair.
+    pub fn rests_on_wear(
         &self,
         colliders: [ColliderHandle; 2],
         bodies: [Option<RigidBodyHandle>; 2],
@@ -75,7 +76,7 @@ impl Filter {
 impl PhysicsHooks for Filter {
     fn filter_contact_pair(&self, context: &PairFilterContext) -> Option<SolverFlags> {
         let pair = [context.collider1, context.collider2];
-        let rests = self.rest(pair, [context.rigid_body1, context.rigid_body2]);
+        let rests = self.rests_on_wear(pair, [context.rigid_body1, context.rigid_body2]);
         (rests != Some(false)).then_some(SolverFlags::default())
     }
 
@@ -83,7 +84,7 @@ impl PhysicsHooks for Filter {
     /// friction of the surface.
     fn modify_solver_contacts(&self, context: &mut ContactModificationContext) {
         let pair = [context.collider1, context.collider2];
-        let rests = self.rest(pair, [context.rigid_body1, context.rigid_body2]);
+        let rests = self.rests_on_wear(pair, [context.rigid_body1, context.rigid_body2]);
         let Some(manifold) = context.rigid_mut().filter(|_| rests == Some(true)) else { return };
         let place = pair.into_iter().find_map(|collider| self.place(collider));
         if let Some(place) = place {

@@ -376,17 +376,16 @@ impl Island {
         [kinetic, kinetic + dynamic.map(|(_, rb)| height(rb)).sum::<f64>()]
     }
 
-    /// True when something beside gravity and contacts may do work on it: a motor, a force of the
-    /// embedder, or springs that were loaded when it was made.
+    /// True when something beside gravity and contacts may do work on it: a motor, a kinematic body, a
+    /// force of the embedder, or springs that were loaded when it was made.
     pub fn is_driven(&self) -> bool {
         let motors = |joint: &GenericJoint| !joint.motor_axes.is_empty();
-        let forces = |rb: &RigidBody| rb.is_kinematic();
         let springs = |joint: &MultibodyJoint| (0..6).any(|axis| joint.spring(axis).0 != 0.0);
         let drives =
             |joint: &MultibodyJoint| joint.kinematic || springs(joint) || motors(&joint.data);
         self.world.impulse_joints.iter().any(|(_, joint)| motors(&joint.data))
             || self.world.multibody_joints.iter().any(|(_, _, _, link)| drives(link.joint()))
-            || self.world.bodies.iter().any(|(_, rb)| forces(rb))
+            || self.world.bodies.iter().any(|(_, rb)| rb.is_kinematic())
             || self
                 .loads
                 .iter()

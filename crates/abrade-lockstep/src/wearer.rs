@@ -13,6 +13,7 @@ use crate::calm::{Calm, normal_speed};
 const IN_PLACE: f64 = 1e-2;
 
 /// A body that wears the island's surfaces.
+#[derive(Clone)]
 pub struct Wearer {
     /// The body in the island's world.
     pub handle: RigidBodyHandle,
@@ -102,6 +103,16 @@ impl Wearer {
         let seen = self.contact.node_evaluations();
         let beyond = None;
         Self { handle, loads, impulse, contact_time, worn, beyond, booked, seen, uses, ..self }
+    }
+
+    /// Lets go of its `own` surfaces, in the order in which it named them, wherever it is: what its
+    /// springs hold is lost, and overhangs break off. Returns what that changed of its energies.
+    pub fn end(mut self, own: &mut [Placed<'_>]) -> Ledger {
+        let before = *self.contact.ledger();
+        self.contact.let_go(own);
+        let mut change = *self.contact.ledger();
+        change -= before;
+        change
     }
 
     /// True when it rests on a contact of Rapier's.
@@ -271,14 +282,15 @@ impl Wearer {
     }
 }
 
-/// The surfaces that `uses` names, lowered by `lifts` [m].
+/// The surfaces that `uses` names, in its order, lowered by `lifts` [m].
 fn own<'a>(surfaces: &'a mut [Placed<'_>], uses: &[usize], lifts: &[f64]) -> Vec<Placed<'a>> {
     let mut own = Vec::with_capacity(uses.len());
     for (at, placed) in surfaces.iter_mut().enumerate() {
         let Some(order) = uses.iter().position(|used| *used == at) else { continue };
         let lift = lifts.get(order).copied().unwrap_or(0.0);
         let pose = placed.pose * Translation3::new(0.0, 0.0, -lift);
-        own.push(Placed::at_rest(&mut *placed.surface, pose));
+        own.push((order, Placed::at_rest(&mut *placed.surface, pose)));
     }
-    own
+    own.sort_unstable_by_key(|(order, _)| *order);
+    own.into_iter().map(|(_, placed)| placed).collect()
 }

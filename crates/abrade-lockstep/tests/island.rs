@@ -155,6 +155,35 @@ fn a_lone_ball_does_what_the_core_makes_of_it() {
     }
 }
 
+/// Fails for surfaces that are lowered for a body in another order than it names them: where an engine
+/// has left it inside one of them, that one throws it out.
+#[test]
+fn each_surface_is_lowered_by_its_own_overlap() {
+    for uses in [vec![0, 1], vec![1, 0]] {
+        let mut surfaces = [plate(0.1e-3), plate(0.1e-3)];
+        let [away, below] = &mut surfaces;
+        let far = Isometry3::translation(1.0, 0.0, 0.0);
+        let mut placed =
+            [Placed::at_rest(away, far), Placed::at_rest(below, Isometry3::identity())];
+        let mut world_ = PhysicsWorld::default();
+        let slab = world(&mut world_);
+        let proxies = [world_.colliders.insert(ColliderBuilder::ball(1e-3)), slab];
+        world_.colliders[proxies[0]].set_translation(Vector::X);
+        let mut body = ball();
+        body.state = State::at(Point3::new(0.0, 0.0, 3e-3 - 20e-6));
+        let handle = insert(&mut world_, &body);
+        let (loads, settings) = (Loads::default(), EncounterSettings::default());
+        let wearer = Wearer::new(handle, body, loads, &mut placed, uses.clone(), settings);
+        let proxies = proxies.map(|collider| Proxy { collider, friction: 0.5 });
+        let wearers = vec![wearer.expect("a wearer")];
+        let mut island = Island::new(world_, wearers, proxies.to_vec(), FREE);
+        island.advance(&mut placed, 1e-5, &mut |_, _, _| ()).expect("steps");
+        let wearer = &island.wearers()[0];
+        let speed = wearer.body.state.velocity.norm();
+        assert_eq!((speed, wearer.worn()), (0.0, &[0.0, 0.0][..]), "{uses:?}");
+    }
+}
+
 /// Fails for faces whose force lags, or for an impulse taken for a force.
 #[test]
 fn a_lone_cube_does_what_the_core_makes_of_it() {

@@ -66,6 +66,15 @@ impl Contact {
         }
     }
 
+    /// Adds volumes that broke off as the open contact was ended [m3].
+    pub fn add_broken(open: &mut Option<Self>, broken: &[(SurfaceId, f64)]) {
+        let Some(contact) = open else { return };
+        for (surface, sum) in &mut contact.surfaces {
+            let own = broken.iter().filter(|(id, _)| id == surface);
+            *sum += own.map(|(_, volume)| volume).sum::<f64>();
+        }
+    }
+
     /// Impulse on the body so far [N s], and time in contact [s].
     pub fn so_far(&self) -> (Vector3<f64>, f64) {
         (self.impulse, self.time)

@@ -149,7 +149,8 @@ impl WearWorld {
             let seat = micro::seat(surface, &self.lies, &frame);
             let mut placed = micro::place(&mut self.surfaces, surface, seat);
             encounter.end(&mut placed);
-            self.surfaces[surface.0].owned().settle();
+            let broken = self.surfaces[surface.0].settle_end();
+            Contact::add_broken(&mut contact, &[(surface, broken)]);
             self.closed += *encounter.ledger();
             Contact::end(&mut contact, tool.handle, &mut self.events);
         }

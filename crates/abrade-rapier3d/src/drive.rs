@@ -2,7 +2,7 @@
 
 use abrade::{Body, Drive, Driven, Ledger, PhysicsError, Placed};
 use nalgebra::{Isometry3, Vector3};
-use rapier::dynamics::{RigidBodyHandle, RigidBodySet};
+use rapier::dynamics::{RigidBodyHandle, RigidBodySet, RigidBodyType};
 
 use crate::error::{Led, WearError};
 use crate::observer::{Relay, WearObserver};
@@ -24,11 +24,11 @@ pub(crate) struct DrivenBody {
 impl WearWorld {
     /// Drives `body`, whose state is given in the frame of `surface`: the first step presses it
     /// in, the following ones slide it. Its rigid body must be position-based kinematic; Rapier
-    /// follows the core.
+    /// follows the core. A drive lasts until the rigid body is removed.
     ///
     /// # Errors
-    /// There is no such body, or it is not kinematic, or it is a tool; a drive that the surface's laws
-    /// refuse.
+    /// There is no such body, or it is not kinematic and position-based, or it is driven or a tool
+    /// already; a drive that the surface's laws refuse.
     pub fn drive(
         &mut self,
         surface: SurfaceId,
@@ -38,9 +38,15 @@ impl WearWorld {
         bodies: &RigidBodySet,
     ) -> Result<(), WearError> {
         let rb = bodies.get(handle).filter(|rb| rb.is_kinematic());
-        rb.ok_or(WearError::NotKinematic { body: handle })?;
+        let rb = rb.ok_or(WearError::NotKinematic { body: handle })?;
+        if rb.body_type() != RigidBodyType::KinematicPositionBased {
+            return Err(WearError::NotByPosition { body: handle });
+        }
         if self.find_tool(handle).is_some() {
             return Err(WearError::LedAlready { body: handle, led: Led::Tool });
+        }
+        if self.driven(handle).is_some() {
+            return Err(WearError::LedAlready { body: handle, led: Led::Driven });
         }
         let worn = &self.surfaces[surface.0].surface;
         let driven = Driven::new(&mut body, worn, drive, self.settings.encounter())
@@ -52,6 +58,13 @@ impl WearWorld {
     /// The course of a driven body.
     pub fn driven(&self, handle: RigidBodyHandle) -> Option<&Driven> {
         self.driven.iter().find(|d| d.handle == handle).map(|d| &d.driven)
+    }
+
+    /// Forgets the drives of bodies that are gone, but for their energies.
+    pub(crate) fn drop_driven(&mut self, bodies: &RigidBodySet) {
+        let closed = &mut self.closed;
+        let gone = self.driven.extract_if(.., |driven| !bodies.contains(driven.handle));
+        gone.for_each(|driven| *closed += *driven.ledger());
     }
 
     /// Carries every driven body through the step under way.

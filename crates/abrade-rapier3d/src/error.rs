@@ -47,8 +47,16 @@ pub enum WearError {
         /// The handle given.
         body: RigidBodyHandle,
     },
-    /// The body is driven, or a tool, already: a kinematic body may be one of the two.
-    #[error("body {body:?} is {led} already: a kinematic body may be driven or a tool, not both")]
+    /// The body is kinematic, but led by its velocity.
+    #[error("body {body:?} is led by its velocity: a driven body must be led by its position")]
+    NotByPosition {
+        /// The handle given.
+        body: RigidBodyHandle,
+    },
+    /// The body is driven, or a tool, already: a kinematic body has one drive, or is a tool.
+    #[error(
+        "body {body:?} is {led} already: a kinematic body has one drive or is a tool, not both"
+    )]
     LedAlready {
         /// The body.
         body: RigidBodyHandle,

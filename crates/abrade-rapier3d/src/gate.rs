@@ -10,6 +10,7 @@ use crate::event::Refusal;
 use crate::free::Free;
 use crate::obstacle::{Obstacles, Search, interact};
 use crate::path::Extent;
+use crate::pull::pull;
 use crate::surface::{SurfaceId, WornCollider};
 use crate::track::Track;
 use crate::tracked::Tracked;
@@ -185,9 +186,7 @@ impl Course {
     /// The course of `rb` in the world.
     pub fn of(rb: &RigidBody, tracked: &Tracked, gravity: &Vector3<f64>) -> Self {
         let state = tracked.state(rb);
-        let mass = scalar::wide(rb.mass()).max(f64::MIN_POSITIVE);
-        let acceleration =
-            gravity * scalar::wide(rb.gravity_scale()) + scalar::vector(rb.user_force()) / mass;
+        let acceleration = pull(rb, Some(tracked), gravity);
         let rounding = scalar::ROUNDING * state.position.coords.norm();
         let radius = tracked.radius * (1.0 + MARGIN) + rounding;
         Self { state, acceleration, radius, surfaces_speed: 0.0 }

@@ -5,14 +5,17 @@
 //! has changed until its next step, so colliders are compared only where a flag is up; when
 //! someone else stepped the world, which takes the flags down, every body is looked at closely.
 
+use nalgebra::Vector3;
 use rapier::data::HasModifiedFlag;
-use rapier::dynamics::{RigidBody, RigidBodyHandle, RigidBodySet};
+use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{ColliderHandle, ColliderSet};
 
 use crate::gate::Lie;
 use crate::path::Extent;
+use crate::pull::pull;
 use crate::scalar;
 use crate::tracked::Tracked;
+use crate::view::WorldView;
 
 /// Share by which a reach is taken for larger than it is.
 const MARGIN: f64 = 1e-3;
@@ -56,7 +59,7 @@ pub(crate) struct Span {
     /// Length of the step [s].
     pub dt: f64,
     /// Acceleration of gravity [m/s2].
-    pub gravity: f64,
+    pub gravity: Vector3<f64>,
     /// Gap over which Rapier makes contacts [m].
     pub contacts: f64,
 }
@@ -72,8 +75,8 @@ impl Glances {
     /// in the order of their handles.
     pub fn pick(
         &mut self,
-        bodies: &RigidBodySet,
-        colliders: &ColliderSet,
+        world: &WorldView<'_>,
+        tracked: &[Option<Tracked>],
         lies: &[Lie],
         span: Span,
         picked: &mut Vec<RigidBodyHandle>,
@@ -81,13 +84,13 @@ impl Glances {
         picked.clear();
         self.targets.clear();
         self.targets.extend(lies.iter().map(|lie| target(&lie.extent)));
-        self.find_changed(colliders);
+        self.find_changed(world.colliders);
         if self.span != span {
             self.span = span;
             self.list.iter_mut().for_each(|glance| glance.tag |= LATE);
         }
         let near = [span.dt * (1.0 + MARGIN), span.contacts];
-        for (handle, rb) in bodies.iter() {
+        for (handle, rb) in world.bodies.iter() {
             let (index, generation) = handle.into_raw_parts();
             let index = index as usize;
             if self.list.len() <= index {
@@ -96,7 +99,7 @@ impl Glances {
             let glance = &mut self.list[index];
             let changed = rb.has_modified_flag();
             if glance.tag != u64::from(generation) || changed {
-                glance.renew(rb, generation, changed, &span);
+                glance.renew(handle, rb, tracked, &span);
             }
             let is_busy = glance.tag & BUSY != 0;
             if is_busy || self.targets.iter().any(|t| may_reach(rb, glance.reach, near, t)) {
@@ -133,28 +136,32 @@ impl Glances {
         let busy = tracked.live.is_some() || tracked.shadow.is_some() || !tracked.near.is_empty();
         glance.tag = if busy { glance.tag | BUSY } else { glance.tag & !BUSY };
         glance.outline = tracked.radius + arm(rb);
-        glance.read(rb, &self.span);
+        glance.read(rb, Some(tracked), &self.span);
     }
 }
 
 impl Glance {
     /// Makes the glance one of the body that now has its index.
-    fn renew(&mut self, rb: &RigidBody, generation: u32, changed: bool, span: &Span) {
+    fn renew(
+        &mut self,
+        handle: RigidBodyHandle,
+        rb: &RigidBody,
+        tracked: &[Option<Tracked>],
+        span: &Span,
+    ) {
+        let (generation, changed) = (handle.into_raw_parts().1, rb.has_modified_flag());
         if self.tag & !(BUSY | LATE) != u64::from(generation) {
             *self = Self { tag: u64::from(generation) | BUSY, ..NEW };
         }
         if changed || self.tag & LATE != 0 {
-            self.read(rb, span);
+            self.read(rb, Tracked::find(tracked, handle), span);
         }
         self.tag = if changed { self.tag | LATE } else { self.tag & !LATE };
     }
 
     /// Reads what an embedder may have changed on the body itself.
-    fn read(&mut self, rb: &RigidBody, span: &Span) {
-        let mass = scalar::wide(rb.mass()).max(f64::MIN_POSITIVE);
-        let acceleration = span.gravity * scalar::wide(rb.gravity_scale()).abs()
-            + scalar::vector(rb.user_force()).norm() / mass;
-        let bend = 0.5 * span.dt * span.dt * acceleration;
+    fn read(&mut self, rb: &RigidBody, tracked: Option<&Tracked>, span: &Span) {
+        let bend = 0.5 * span.dt * span.dt * pull(rb, tracked, &span.gravity).norm();
         // A course is one of the centre of mass, about which the outline reaches farther.
         self.reach = (1.0 + MARGIN) * (self.outline + 2.0 * arm(rb) + bend);
     }

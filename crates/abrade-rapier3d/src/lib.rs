@@ -8,18 +8,20 @@
 //! A step goes through these stages:
 //! 1. choose: bodies whose path over the step comes near a wear surface, fixed order;
 //! 2. ahead: each of them is run as if it were alone, in parallel;
-//! 3. gate: a body with a joint, with something else in its way, or at rest on a surface is left
-//!    in Rapier's hands for the step, its contact laid on the worn surface;
-//! 4. resolve (Micro): the others are carried through the whole step in `f64` by
-//!    [`abrade::Encounter`], in a frame that lies on the surface; what was done ahead is taken
-//!    over where it would be the same now. Tools are led through the surfaces in their way;
-//! 5. steer: their velocities are set so that Rapier lands where the integration ended, and the
+//! 3. resolve: a body with a joint, with something else in its way, or at rest on a surface is left
+//!    in Rapier's hands for the step, its contact laid on the worn surface; the others are carried
+//!    through the whole step in `f64` by [`abrade::Encounter`] (Micro), in a frame that lies on the
+//!    surface; what was done ahead is taken over where it would be the same now. Tools are led
+//!    through the surfaces in their way;
+//! 4. steer: their velocities are set so that Rapier lands where the integration ended, and the
 //!    pairs body x proxy are filtered out;
-//! 6. engine: Rapier's own step, with the embedder's hooks chained behind ours;
-//! 7. settle: poses and end velocities are written, events raised; bodies in Rapier's hands wear by
+//! 5. engine: Rapier's own step, with the embedder's hooks chained behind ours;
+//! 6. settle: poses and end velocities are written, events raised; bodies in Rapier's hands wear by
 //!    the load that their contact bore (QuasiStatic), or are taken back with their island and
 //!    stepped finely (Lockstep), where it was a blow. In an island the embedder's hooks are not
 //!    asked;
+//! 7. collide: crowded surfaces wear by the blows that their contacts bore, and by the loads of
+//!    what lies there (Collision);
 //! 8. renew: solids that have worn deep and that nothing touches begin anew as what is left of
 //!    them, and their colliders, masses and centres follow.
 //!
@@ -59,6 +61,7 @@ mod observer;
 mod obstacle;
 mod path;
 mod print;
+mod pull;
 mod quasi_static;
 mod query_collider;
 mod register;

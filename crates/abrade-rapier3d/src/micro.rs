@@ -1,15 +1,18 @@
 //! The Micro resolver: one body carried through a whole step by the core, on its own.
 
 use abrade::{
-    Advance, Body, Carrier, Changes, Encounter, Loads, PhysicsError, Placed, Skin, State, Surface,
-    Until,
+    Advance, Body, Carrier, Changes, Encounter, Ledger, Loads, PhysicsError, Placed, Skin, State,
+    Surface, Until,
 };
 use nalgebra::{Isometry3, Vector3};
 
+use crate::ahead::Ahead;
 use crate::changed::Changed;
 use crate::gate::{Course, Lead, Lie, Way};
-use crate::observer::Relay;
+use crate::observer::{Relay, WearObserver};
+use crate::start::Start;
 use crate::surface::{SurfaceId, WornCollider};
+use crate::track::{Trace, Track};
 use crate::tracked::Live;
 
 /// Parts of a step between which a body with something in its way looks where it goes.
@@ -26,6 +29,23 @@ pub(crate) struct Errand<'a> {
     pub in_parts: bool,
 }
 
+/// What carrying a body changes, and where the surfaces lie.
+pub(crate) struct Room<'a> {
+    pub surfaces: &'a mut [WornCollider],
+    pub lies: &'a [Lie],
+    pub changed: &'a mut Changed,
+}
+
+/// What a step did to a body.
+pub(crate) struct Carried {
+    pub advance: Advance,
+    pub worn: Volumes,
+    /// Where it was, in the frame of its first surface.
+    pub track: Track,
+    /// End of the dynamic body that a surface is on.
+    pub carrier: Option<State>,
+}
+
 /// Volumes displaced, surface by surface [m3].
 pub(crate) type Volumes = Vec<(SurfaceId, f64)>;
 
@@ -35,18 +55,43 @@ impl Live {
         Self { encounter, surfaces, skin: None, frame: None }
     }
 
-    /// Carries `body`, whose state is given in the frame of the first surface. Where changes are
-    /// noted, the surfaces are worn by way of leaves, which know theirs. Returns the volumes too, and
-    /// the end of the dynamic body that a surface is on.
+    /// Takes over what `body` did ahead.
+    pub fn take_over(&mut self, ahead: Ahead, body: &mut Body, room: Room<'_>) -> Carried {
+        let Ahead { end, encounter, advance, track, changes, .. } = ahead;
+        self.encounter = encounter;
+        body.state = end;
+        let worn = apply(&self.surfaces, &changes, room.surfaces, room.changed);
+        Carried { advance, worn, track, carrier: None }
+    }
+
+    /// Carries `body` from its `start`.
     pub fn carry(
         &mut self,
         body: &mut Body,
-        surfaces: &mut [WornCollider],
-        lies: &[Lie],
+        start: &Start,
         errand: &Errand<'_>,
+        room: Room<'_>,
+        observer: &mut dyn WearObserver,
+    ) -> Result<Carried, PhysicsError> {
+        let trace = Trace::new(start.state.position, errand.pull(body), errand.dt);
+        let (body_of, frame, surfaces) = (start.body, start.frame, &start.surfaces);
+        let mut relay = Relay { observer, body: body_of, frame, surfaces, began: 0.0, trace };
+        let (advance, worn, carrier) = self.wear(body, errand, room, &mut relay);
+        let track = relay.trace.finish().map(|extent| extent.grown(start.course.radius()));
+        Ok(Carried { advance: advance?, worn, track, carrier })
+    }
+
+    /// Carries `body`, whose state is given in the frame of the first surface. Where changes are
+    /// noted, the surfaces are worn by way of leaves, which know theirs. Returns the volumes too, and
+    /// the end of the dynamic body that a surface is on.
+    fn wear(
+        &mut self,
+        body: &mut Body,
+        errand: &Errand<'_>,
+        room: Room<'_>,
         relay: &mut Relay<'_>,
-        changed: &mut Changed,
     ) -> (Result<Advance, PhysicsError>, Volumes, Option<State>) {
+        let Room { surfaces, lies, changed } = room;
         let seats = seats(&self.surfaces, lies, &errand.way.frame);
         let (ids, skin) = (self.all(), self.skin.map(|(_, pose)| pose));
         let mut go = |placed: &mut [Placed<'_>]| match errand.in_parts {
@@ -67,6 +112,13 @@ impl Live {
         let carrier = carrier(&placed);
         let worn = |id: &SurfaceId| (*id, surfaces[id.0].owned().settle().displaced());
         (result, ids.iter().map(worn).collect(), carrier)
+    }
+
+    /// Ends the encounter; returns its energies, and the volumes that broke off.
+    pub fn end(mut self, surfaces: &mut [WornCollider]) -> (Ledger, Volumes) {
+        let skin = self.skin.map(|(_, pose)| pose);
+        let broken = end(surfaces, &self.all(), skin, |placed| self.encounter.end(placed));
+        (*self.encounter.ledger(), broken)
     }
 
     /// The surfaces of the encounter, and the body's own.
@@ -169,6 +221,20 @@ pub(crate) fn apply(
 pub(crate) fn carrier(placed: &[Placed<'_>]) -> Option<State> {
     let carriers = placed.iter().filter_map(|placed| placed.carrier.as_ref());
     carriers.filter(|carrier| carrier.inertia.is_some()).map(|carrier| carrier.state).next()
+}
+
+/// Ends a contact by `end`, wherever the body is: with the surfaces `ids`, of which the last is the
+/// body's own if it has a `skin`. Returns the volumes that broke off.
+pub(crate) fn end(
+    surfaces: &mut [WornCollider],
+    ids: &[SurfaceId],
+    skin: Option<Isometry3<f64>>,
+    end: impl FnOnce(&mut [Placed<'_>]),
+) -> Volumes {
+    let seats = vec![(Isometry3::identity(), None); ids.len() - usize::from(skin.is_some())];
+    let mut placed = dressed(owned(surfaces, ids), &seats, skin);
+    end(&mut placed);
+    ids.iter().map(|id| (*id, surfaces[id.0].settle_end())).collect()
 }
 
 /// Where a surface lies in the frame of an integration, and what carries it.

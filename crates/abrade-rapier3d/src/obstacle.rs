@@ -12,6 +12,7 @@ use rapier::parry::shape::{Cuboid, Shape};
 
 use crate::bins::Bins;
 use crate::path::Extent;
+use crate::pull::pull;
 use crate::query_collider::is_of_queries;
 use crate::scalar;
 use crate::track::{SLICES, Track};
@@ -270,9 +271,8 @@ impl Sweep {
             let start = standing.grown(set.max(velocity.norm() * dt + turn(angle)));
             return Some(Self { start, velocity: Vector3::zeros(), pull: Vector3::zeros() });
         }
-        let mass = scalar::wide(body.mass()).max(f64::MIN_POSITIVE);
-        let pull = scalar::vector(world.gravity) * scalar::wide(body.gravity_scale())
-            + scalar::vector(body.user_force()) / mass;
+        // What is in the way goes as Rapier takes it.
+        let pull = pull(body, None, &scalar::vector(world.gravity));
         Some(Self { start: standing.grown(turn(angle)), velocity, pull })
     }
 

@@ -1,8 +1,11 @@
 //! What the colliders of a body looked like when the core's body was derived from them, to see
 //! when it has to be derived anew.
 //!
-//! A shape that lies where it lay in memory is the same one. Elsewhere, as after a world was read
-//! from bytes, it is the same when every number that is derived from is.
+//! A print keeps the shape, so that no other one can come to lie where it lies in memory, nor be made
+//! of it in place. One that lies elsewhere, as after a world was read from bytes, is the same when
+//! every number that is derived from is.
+
+use std::sync::Arc;
 
 use rapier::dynamics::RigidBody;
 use rapier::geometry::{Collider, ColliderHandle, ColliderSet, SharedShape};
@@ -14,26 +17,32 @@ use crate::obstacle::extent;
 use crate::scalar;
 
 /// What a collider looked like.
-#[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Print {
+    glimpse: Glimpse,
+    /// Every number of the shape, folded into one.
+    content: u64,
+    /// The shape itself; none when the glimpse has all of its numbers.
+    #[cfg_attr(feature = "serde-serialize", serde(skip))]
+    shape: Option<SharedShape>,
+}
+
+/// What is cheapest to read of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde-serialize", derive(serde::Serialize, serde::Deserialize))]
+struct Glimpse {
     collider: ColliderHandle,
     pose: Pose,
     solid: bool,
     numbers: [f64; 3],
-    /// Every number of the shape, folded into one.
-    content: u64,
-    /// Where the rest of its numbers lie; nowhere when `numbers` has them all.
-    #[cfg_attr(feature = "serde-serialize", serde(skip))]
-    address: Option<usize>,
 }
 
 /// Prints the colliders of a body, in their order.
 pub(crate) fn take(prints: &mut Vec<Print>, body: &RigidBody, colliders: &ColliderSet) {
     prints.clear();
     let of = |(handle, collider): (ColliderHandle, &Collider)| {
-        let print = glimpse(handle, collider);
-        Print { content: content(collider.shape()), ..print }
+        let (content, shape) = (content(collider.shape()), kept(collider));
+        Print { glimpse: Glimpse::of(handle, collider), content, shape }
     };
     prints.extend(solids(body, colliders, false).map(of));
 }
@@ -49,37 +58,40 @@ pub(crate) fn hold(prints: &mut [Print], body: &RigidBody, colliders: &ColliderS
 
 impl Print {
     fn holds(&mut self, handle: ColliderHandle, collider: &Collider) -> bool {
-        let seen = glimpse(handle, collider);
-        let kept = Self { content: 0, address: seen.address, ..*self };
-        if kept != seen {
+        if self.glimpse != Glimpse::of(handle, collider) {
             return false;
         }
-        if self.address != seen.address {
-            if content(collider.shape()) != self.content {
-                return false;
-            }
-            self.address = seen.address;
+        let seen = &collider.shared_shape().0;
+        if self.shape.as_ref().is_some_and(|SharedShape(kept)| Arc::ptr_eq(kept, seen)) {
+            return true;
         }
-        true
+        let shape = kept(collider);
+        let has_all = self.shape.is_none() && shape.is_none();
+        self.shape = shape;
+        has_all || content(collider.shape()) == self.content
     }
 }
 
-/// The print of a collider, but for the content of its shape.
-fn glimpse(handle: ColliderHandle, collider: &Collider) -> Print {
-    let (numbers, address) = match collider.shape().as_typed_shape() {
-        TypedShape::Ball(ball) => ([scalar::wide(ball.radius), 0.0, 0.0], None),
-        TypedShape::Cuboid(cuboid) => (scalar::vector(cuboid.half_extents).into(), None),
-        TypedShape::ConvexPolyhedron(hull) => {
-            ([hull.points().len() as f64, 0.0, 0.0], Some(hull.points().as_ptr().addr()))
-        }
-        TypedShape::Compound(compound) => {
-            ([compound.shapes().len() as f64, 0.0, 0.0], Some(compound.shapes().as_ptr().addr()))
-        }
-        _ => ([0.0; 3], Some(std::ptr::from_ref(collider.shape()).cast::<u8>().addr())),
-    };
-    let pose = collider.position_wrt_parent().copied().unwrap_or(Pose::IDENTITY);
-    let solid = is_solid(collider);
-    Print { collider: handle, pose, solid, numbers, content: 0, address }
+impl Glimpse {
+    fn of(collider: ColliderHandle, seen: &Collider) -> Self {
+        let numbers = match seen.shape().as_typed_shape() {
+            TypedShape::Ball(ball) => [scalar::wide(ball.radius), 0.0, 0.0],
+            TypedShape::Cuboid(cuboid) => scalar::vector(cuboid.half_extents).into(),
+            TypedShape::ConvexPolyhedron(hull) => [hull.points().len() as f64, 0.0, 0.0],
+            TypedShape::Compound(compound) => [compound.shapes().len() as f64, 0.0, 0.0],
+            _ => [0.0; 3],
+        };
+        let pose = seen.position_wrt_parent().copied().unwrap_or(Pose::IDENTITY);
+        Self { collider, pose, solid: is_solid(seen), numbers }
+    }
+}
+
+/// The shape of a collider, but for balls and cuboids: a glimpse has all of their numbers.
+fn kept(collider: &Collider) -> Option<SharedShape> {
+    match collider.shape().as_typed_shape() {
+        TypedShape::Ball(_) | TypedShape::Cuboid(_) => None,
+        _ => Some(collider.shared_shape().clone()),
+    }
 }
 
 /// The numbers of a shape that a body is derived from, its kind among them.
@@ -157,6 +169,20 @@ mod tests {
         };
         let corners = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)];
         SharedShape::convex_hull(&corners.map(|(x, y, z)| corner(x, y, z))).expect("a hull")
+    }
+
+    /// Fails for a print that goes by the place in memory: the second shape comes to lie where the first
+    /// lay.
+    #[test]
+    fn other_numbers_at_the_same_place_are_another_shape() {
+        let mut world = PhysicsWorld::default();
+        let collider = ColliderBuilder::new(hull(1.0));
+        let (body, collider) = world.insert(RigidBodyBuilder::dynamic(), collider);
+        let mut prints = Vec::new();
+        take(&mut prints, &world.bodies[body], &world.colliders);
+        world.colliders[collider].set_shape(SharedShape::ball(scalar::narrow(1.0)));
+        world.colliders[collider].set_shape(hull(1.5));
+        assert!(!hold(&mut prints, &world.bodies[body], &world.colliders));
     }
 
     /// Fails for a print that goes by the place in memory, as another process has another one, and

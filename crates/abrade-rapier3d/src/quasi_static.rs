@@ -3,12 +3,12 @@
 //!
 //! Rapier's penetration never enters: the body's height is the one at which the load balances.
 
-use abrade::{Advance, Body, Hold, PhysicsError, Pressed, State, Surface};
+use abrade::{Advance, Body, Hold, Ledger, PhysicsError, Pressed, State, Surface};
 use nalgebra::{Isometry3, Vector3};
 use rapier::dynamics::RigidBodyHandle;
 
 use crate::gate::Lie;
-use crate::micro::place;
+use crate::micro::{self, Volumes, place};
 use crate::observer::{Relay, WearObserver};
 use crate::surface::{SurfaceId, WornCollider};
 use crate::track::Trace;
@@ -122,15 +122,14 @@ impl Pressing {
         Ok(Some(Outcome { advance, friction }))
     }
 
-    /// Ends the contact: overhangs break off.
-    pub fn end(&mut self, surfaces: &mut [WornCollider]) -> abrade::Ledger {
-        let mut placed = place(surfaces, self.surface, (Isometry3::identity(), None));
-        self.pressed.end(&mut placed);
-        *self.pressed.ledger()
+    /// Ends the contact: overhangs break off. Returns its energies, and the volumes that broke off.
+    pub fn end(mut self, surfaces: &mut [WornCollider]) -> (Ledger, Volumes) {
+        let broken = micro::end(surfaces, &[self.surface], None, |placed| self.pressed.end(placed));
+        (*self.pressed.ledger(), broken)
     }
 
     /// The energies so far.
-    pub fn ledger(&self) -> &abrade::Ledger {
+    pub fn ledger(&self) -> &Ledger {
         self.pressed.ledger()
     }
 }

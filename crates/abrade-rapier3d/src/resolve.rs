@@ -1,23 +1,21 @@
 //! Resolving one body near a wear surface: through the gate and the Micro resolver, or left to
 //! Rapier with a reason, until the other resolvers know what it bore.
 
-use abrade::{Advance, PhysicsError, Until};
+use abrade::{PhysicsError, State, Until};
 use nalgebra::Isometry3;
 use rapier::dynamics::RigidBodyHandle;
 
-use crate::ahead::Ahead;
 use crate::booking::Booking;
 use crate::error::WearError;
 use crate::event::{Refusal, WearEvent};
 use crate::gate;
-use crate::micro;
-use crate::observer::{Relay, WearObserver};
+use crate::micro::{Carried, Room};
+use crate::observer::WearObserver;
 use crate::resolver::Resolve;
 use crate::shadow;
-use crate::start::{How, Scene};
+use crate::start::{How, Start};
 use crate::surface::SurfaceId;
-use crate::track::Trace;
-use crate::tracked::{Known, Live, Tracked};
+use crate::tracked::{Known, Tracked};
 use crate::view::WorldView;
 use crate::world::{Integrated, WearWorld};
 
@@ -55,7 +53,7 @@ impl WearWorld {
         let tracked = Tracked::slot(&mut self.bodies, handle);
         tracked.is_placed = false;
         let Err(left) = carried else { return };
-        self.closed += tracked.end(&mut self.events);
+        tracked.end(&mut self.surfaces, &mut self.closed, &mut self.events);
         match left {
             // Rapier's contacts overlap: only a state that the embedder gave exactly is an error.
             Left::Failed(PhysicsError::StartsInside { .. } | PhysicsError::StepVanished { .. })
@@ -114,7 +112,11 @@ impl WearWorld {
         until: Until,
         observer: &mut dyn WearObserver,
     ) -> Result<(), Left> {
-        let carried = self.carry_alone(handle, world, until, observer);
+        let index = handle.into_raw_parts().0 as usize;
+        // Taken out, and put back.
+        let Some(mut tracked) = self.bodies[index].take() else { return Ok(()) };
+        let carried = self.carry_alone(&mut tracked, world, until, observer);
+        self.bodies[index] = Some(tracked);
         if carried.is_err() {
             self.obstacles.blur(handle);
         }
@@ -123,110 +125,77 @@ impl WearWorld {
 
     fn carry_alone(
         &mut self,
-        handle: RigidBodyHandle,
+        tracked: &mut Tracked,
         world: &WorldView<'_>,
         until: Until,
         observer: &mut dyn WearObserver,
     ) -> Result<(), Left> {
-        let dt = self.current.dt;
-        let tracked = Tracked::slot(&mut self.bodies, handle);
         let ahead = tracked.ahead.take();
-        let scene = Scene {
-            world,
-            surfaces: &self.surfaces,
-            lies: &self.lies,
-            obstacles: &self.obstacles,
-            candidates: &self.candidates,
-            carried: &self.current.carried,
-            settings: &self.settings,
-            dt,
-            sight: self.current.sight,
-        };
-        let Some(start) = scene.start(tracked)? else { return Ok(()) };
+        let Some(start) = self.scene(world).start(tracked)? else { return Ok(()) };
         // An encounter goes on in the frame it began in.
         if start.is_new {
-            self.closed += tracked.end(&mut self.events);
+            tracked.end(&mut self.surfaces, &mut self.closed, &mut self.events);
         }
         let Some(way) = start.way(world, &self.obstacles) else { return Ok(()) };
-        let mut errand = scene.errand(way, &start, until);
         let ahead = ahead.filter(|ahead| ahead.holds(&self.changed, &self.surfaces));
+        let scene = self.scene(world);
+        let mut errand = scene.errand(way, &start, until);
         let how = scene.how(ahead, &start, tracked, &errand, observer.watches())?;
-        if tracked.live.is_none() {
-            let encounter = match scene.encounter(&start, tracked) {
-                // Laws that two surfaces cannot have between them.
-                Err(PhysicsError::Unsupported { .. }) if start.skin.is_some() => {
-                    return Err(Refusal::Wears.into());
-                }
-                encounter => encounter?,
-            };
-            tracked.live = Some(Live::new(encounter, start.surfaces.clone()));
-        }
-        let (moves, free) = (start.moves, start.free);
-        let mut moved = None;
-        let Known::Ready(body) = &mut tracked.known else { return Ok(()) };
-        let Some(live) = &mut tracked.live else { return Ok(()) };
-        let (frame, course) = (start.frame, start.course);
-        live.frame = moves.then_some(frame).or(live.frame);
-        live.skin = start.skin;
-        let (advance, worn, track) = match how {
-            How::Done(ahead) => {
-                let Ahead { end, encounter, advance, track, changes, .. } = *ahead;
-                live.encounter = encounter;
-                body.state = end;
-                let (surfaces, changed) = (&mut self.surfaces, &mut self.changed);
-                (advance, micro::apply(&live.surfaces, &changes, surfaces, changed), track)
-            }
-            How::Whole | How::Parts => {
-                let trace = Trace::new(start.state.position, errand.pull(body), dt);
-                let surfaces = &start.surfaces;
-                let mut relay =
-                    Relay { observer, body: handle, frame, surfaces, began: 0.0, trace };
-                errand.in_parts = matches!(how, How::Parts);
-                let (surfaces, lies, changed) = (&mut self.surfaces, &self.lies, &mut self.changed);
-                let (advance, worn, carrier) =
-                    live.carry(body, surfaces, lies, &errand, &mut relay, changed);
-                moved = free.zip(carrier);
-                let track = relay.trace.finish().map(|extent| extent.grown(course.radius()));
-                (advance?, worn, track)
-            }
+        errand.in_parts = matches!(how, How::Parts);
+        scene.open(&start, tracked)?;
+        let (Known::Ready(body), Some(live)) = (&mut tracked.known, &mut tracked.live) else {
+            return Ok(());
+        };
+        let room =
+            Room { surfaces: &mut self.surfaces, lies: &self.lies, changed: &mut self.changed };
+        let carried = match how {
+            How::Done(ahead) => live.take_over(*ahead, body, room),
+            How::Whole | How::Parts => live.carry(body, &start, &errand, room, observer)?,
         };
         let end = body.state;
-        shadow::check(&end, advance.time)?;
+        self.land(end, &start, &carried)?;
+        self.book_micro(tracked, &carried, &start.frame, until);
+        Ok(())
+    }
+
+    /// Notes where a body has come to, and the one that its surface is on.
+    fn land(&mut self, end: State, start: &Start, carried: &Carried) -> Result<(), PhysicsError> {
+        let (body, frame, time) = (start.body, start.frame, carried.advance.time);
+        shadow::check(&end, time)?;
+        let moved = start.free.zip(carried.carrier);
         if let Some((_, end)) = &moved {
-            shadow::check(end, advance.time)?;
+            shadow::check(end, time)?;
         }
-        self.integrated.push(Integrated { body: handle, end, frame });
+        self.integrated.push(Integrated { body, end, frame });
         if let Some(((free, extent), end)) = moved {
             self.integrated.push(Integrated { body: free, end, frame });
             self.current.carried.push((free, extent));
         }
-        self.obstacles.settle(handle, &track.placed_by(&frame));
-        self.book_micro(handle, &advance, &worn, &frame, until);
+        self.obstacles.settle(body, &carried.track.placed_by(&frame));
         Ok(())
     }
 
     /// Books what Micro did to a body.
     fn book_micro(
         &mut self,
-        handle: RigidBodyHandle,
-        advance: &Advance,
-        worn: &[(SurfaceId, f64)],
+        tracked: &mut Tracked,
+        carried: &Carried,
         frame: &Isometry3<f64>,
         until: Until,
     ) {
-        let tracked = Tracked::slot(&mut self.bodies, handle);
+        let Carried { advance, worn, .. } = carried;
         let touches = tracked.live.as_ref().is_some_and(|live| live.encounter.in_contact());
         let (impulse, contact_time) = (frame * advance.impulse, advance.contact_time);
         tracked.book(&Booking { impulse, contact_time, touches }, worn, &mut self.events);
         self.counters.add(advance);
         if advance.exited && until == Until::FirstExit {
             self.current.dt = advance.time;
-            self.current.exited = Some(handle);
+            self.current.exited = Some(tracked.handle);
             self.obstacles.forget_times();
         }
         // What follows an exit is another encounter, with a first exit of its own.
         if advance.exited && !touches {
-            self.closed += tracked.end(&mut self.events);
+            tracked.end(&mut self.surfaces, &mut self.closed, &mut self.events);
         }
         tracked.taken_by_micro(&mut self.surfaces, &mut self.closed, &mut self.events);
     }

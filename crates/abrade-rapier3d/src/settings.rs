@@ -17,7 +17,8 @@ pub struct WearSettings {
     /// Keep the energy ledger.
     pub ledger: bool,
     /// Contact steps after which a body's contact is given up with an error, per step of the
-    /// embedder.
+    /// embedder. Under [`Resolve::Auto`], which then hands the body on, at most 1 000 000: larger ones
+    /// take effect with [`Resolve::Micro`] or [`Resolve::Lockstep`].
     pub step_limit: u64,
     /// Which resolvers may be used.
     pub resolve: Resolve,

@@ -130,6 +130,8 @@ impl WearWorld {
             }
             Err(Lost::Failed(body, error)) => {
                 let surface = first.surfaces[0];
+                let tracked = Tracked::slot(&mut self.bodies, first.body);
+                tracked.end_wearer(&mut self.surfaces, &mut self.closed);
                 self.fail(body, surface, error);
                 (vec![first.body], true)
             }
@@ -171,7 +173,7 @@ impl WearWorld {
         *self.reasons.entry((Resolver::QuasiStatic, held.reason.name().into())).or_default() += 1;
         let tracked = Tracked::slot(&mut self.bodies, held.body);
         tracked.hand_to(Resolver::QuasiStatic, Some(held.reason), &mut self.events);
-        tracked.wearer = None;
+        tracked.end_wearer(&mut self.surfaces, &mut self.closed);
         tracked.let_go_but(&held.surfaces, &mut self.surfaces, &mut self.closed);
         let borne = std::mem::take(&mut tracked.borne);
         let touches = borne.iter().any(|(_, load)| *load > 0.0);
@@ -251,8 +253,8 @@ impl WearWorld {
         let goes_on = |p: &Pressing| start.is_some_and(|start| p.is_at(&start, worn));
         let known = tracked.pressing.iter().position(|p| p.surface == surface);
         if let Some(at) = known.filter(|&at| load == 0.0 || !goes_on(&tracked.pressing[at])) {
-            let mut pressing = tracked.pressing.swap_remove(at);
-            self.closed += pressing.end(&mut self.surfaces);
+            let pressing = tracked.pressing.swap_remove(at);
+            tracked.end_pressing(pressing, &mut self.surfaces, &mut self.closed);
             tracked.friction = 0.0;
         }
         let worn = &self.surfaces[surface.0];

@@ -147,7 +147,17 @@ impl<'de> Deserialize<'de> for WearWorld {
 
 impl Serialize for WornCollider {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let Self { surface, proxy, offset, exact, shown, refused, bounds: _, inflation: _ } = self;
+        let Self {
+            surface,
+            proxy,
+            offset,
+            exact,
+            shown,
+            refused,
+            bounds: _,
+            inflation: _,
+            broken: _,
+        } = self;
         let shown = shown.as_ref().map(Shown::parts);
         (&**surface, proxy, offset, exact, shown, refused).serialize(to)
     }

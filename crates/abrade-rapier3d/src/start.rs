@@ -1,8 +1,8 @@
 //! A body at the beginning of a step, and how it is to be carried through it.
 
-use abrade::{Encounter, PhysicsError, State, Until};
+use abrade::{Body, Encounter, PhysicsError, State, Until};
 use nalgebra::{Isometry3, Vector3};
-use rapier::dynamics::RigidBodyHandle;
+use rapier::dynamics::{RigidBody, RigidBodyHandle};
 
 use crate::ahead::Ahead;
 use crate::event::Refusal;
@@ -96,18 +96,7 @@ impl Scene<'_> {
             // With the body that struck it.
             return Ok(None);
         }
-        if let Some(refusal) = gate::bound(self.world, rb, body) {
-            return Err(refusal.into());
-        }
-        tracked.derive(rb, self.world.colliders)?;
-        if tracked.is_in_lockstep_blow() {
-            return Err(Refusal::Blow.into());
-        }
-        match self.settings.resolve {
-            Resolve::QuasiStatic | Resolve::Lockstep => return Err(Refusal::Asked.into()),
-            Resolve::Auto if self.rests(rb, tracked) => return Err(Refusal::Resting.into()),
-            Resolve::Auto | Resolve::Micro => {}
-        }
+        self.admit(rb, tracked)?;
         let skin = self.skin(rb, tracked)?;
         let same_skin = |live: &&Live| live.skin.map(|(id, _)| id) == skin.map(|(id, _)| id);
         let known = tracked.live.as_ref().filter(|_| tracked.knows_surfaces(self.lies));
@@ -130,9 +119,7 @@ impl Scene<'_> {
         let Known::Ready(known) = &mut tracked.known else { return Ok(None) };
         let can_hold = |id: &SurfaceId| gate::can_hold(self.lies, self.surfaces, *id);
         if is_new && !tracked.is_placed && surfaces.iter().all(can_hold) {
-            // Rapier's contacts let bodies sink in.
-            let depth = afloat::depth(known, &state, &self.surfaces[anchor.0]);
-            let lift = if depth < LIFT * tracked.radius { depth } else { 0.0 };
+            let lift = self.lift(known, &state, anchor, tracked.radius);
             state.position.z += lift;
             course.state.position += frame * Vector3::z() * lift;
         }
@@ -150,6 +137,28 @@ impl Scene<'_> {
         Ok(Some(Start { body, surfaces, skin, frame, bounds, state, course, is_new, moves, free }))
     }
 
+    /// Derives the body; a refusal for one that is not Micro's wherever it goes.
+    fn admit(&self, rb: &RigidBody, tracked: &mut Tracked) -> Result<(), Refusal> {
+        if let Some(refusal) = gate::bound(self.world, rb, tracked.handle) {
+            return Err(refusal);
+        }
+        tracked.derive(rb, self.world.colliders)?;
+        if tracked.is_in_lockstep_blow() {
+            return Err(Refusal::Blow);
+        }
+        match self.settings.resolve {
+            Resolve::QuasiStatic | Resolve::Lockstep => Err(Refusal::Asked),
+            Resolve::Auto if self.rests(rb, tracked) => Err(Refusal::Resting),
+            Resolve::Auto | Resolve::Micro => Ok(()),
+        }
+    }
+
+    /// Height by which a body that Rapier's contact has let sink into a surface is lifted [m].
+    fn lift(&self, body: &Body, state: &State, surface: SurfaceId, radius: f64) -> f64 {
+        let depth = afloat::depth(body, state, &self.surfaces[surface.0]);
+        if depth < LIFT * radius { depth } else { 0.0 }
+    }
+
     /// The encounter that the body has or begins.
     pub fn encounter(&self, start: &Start, tracked: &Tracked) -> Result<Encounter, PhysicsError> {
         match (&tracked.live, &tracked.known) {
@@ -161,6 +170,24 @@ impl Scene<'_> {
             }
             _ => Err(PhysicsError::Unsupported { what: "a body that was not derived" }),
         }
+    }
+
+    /// Begins the encounter of a body that has none, and lays it in the frame of this step.
+    pub fn open(&self, start: &Start, tracked: &mut Tracked) -> Result<(), Left> {
+        let live = match tracked.live.take() {
+            Some(live) => live,
+            None => match self.encounter(start, tracked) {
+                Ok(encounter) => Live::new(encounter, start.surfaces.clone()),
+                // Laws that two surfaces cannot have between them.
+                Err(PhysicsError::Unsupported { .. }) if start.skin.is_some() => {
+                    return Err(Refusal::Wears.into());
+                }
+                Err(error) => return Err(error.into()),
+            },
+        };
+        let frame = start.moves.then_some(start.frame).or(live.frame);
+        tracked.live = Some(Live { frame, skin: start.skin, ..live });
+        Ok(())
     }
 
     /// What the body is to do.

@@ -9,6 +9,7 @@ use rapier::dynamics::{IntegrationParameters, RigidBody};
 use rapier::geometry::ColliderSet;
 use rapier::math::Vector;
 
+use crate::pull::pull;
 use crate::scalar;
 use crate::shadow::{self, Shadow};
 use crate::world::Integrated;
@@ -80,12 +81,8 @@ pub(crate) fn steer(
     let world = integrated.end.placed_by(&integrated.frame);
     let gyroscopic = rb.gyroscopic_forces_enabled();
     let limit = BELOW_LIMIT * scalar::wide(parameters.max_linear_velocity());
-    let mass = scalar::wide(rb.mass());
-    // A body that is registered with a mass may have none of Rapier's, which then pulls nothing.
-    let pull = match mass > 0.0 {
-        true => gravity * scalar::wide(rb.gravity_scale()) + scalar::vector(rb.user_force()) / mass,
-        false => Vector3::zeros(),
-    };
+    // A body that is registered with a mass may have none of Rapier's.
+    let pull = pull(rb, None, gravity);
     let way = world.position.coords - scalar::vector(rb.center_of_mass());
     let (linvel, linear) =
         Leg::new(&way, &pull, dt, substeps, scalar::wide(rb.linear_damping()), limit);

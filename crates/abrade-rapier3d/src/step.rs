@@ -1,4 +1,5 @@
-//! One step of the embedder's world: choose, resolve, steer, engine, settle, collide, renew.
+//! One step of the embedder's world: choose, ahead, resolve, steer, engine, settle,
+//! collide, renew.
 
 use abrade::Until;
 use nalgebra::{Isometry3, Vector3};
@@ -105,6 +106,7 @@ impl WearWorld {
                 self.before.note(&world, &self.bodies, &self.held, may_wake || is_crowded);
             }
             self.steer(&mut world, &gravity);
+            self.drop_driven(world.bodies);
             if !self.driven.is_empty() {
                 let colliders = &*world.colliders;
                 let pose = |worn: &WornCollider| {
@@ -193,6 +195,7 @@ impl WearWorld {
         self.obstacles.clear();
         self.neighbours.clear();
         self.changed.clear();
+        self.surfaces.iter_mut().for_each(|worn| worn.broken = false);
     }
 
     /// What the bodies near a surface may run into, each other included.
@@ -222,8 +225,8 @@ impl WearWorld {
         gate::lie(&self.surfaces, world, &self.bodies, times, &mut self.lies);
         let mut picked = std::mem::take(&mut self.picked);
         let Current { sight, contacts, .. } = self.current;
-        let span = Span { dt: sight, gravity: gravity.norm(), contacts };
-        self.glances.pick(world.bodies, world.colliders, &self.lies, span, &mut picked);
+        let span = Span { dt: sight, gravity: *gravity, contacts };
+        self.glances.pick(world, &self.bodies, &self.lies, span, &mut picked);
         for &handle in &picked {
             let Some(rb) = world.bodies.get(handle) else { continue };
             if gate::may_wake(rb) {
@@ -285,17 +288,17 @@ impl WearWorld {
         gravity: &Vector3<f64>,
     ) {
         let (bodies, colliders) = (&*world.bodies, &*world.colliders);
-        let (surfaces, dt) = (&self.surfaces, self.current.dt);
+        let dt = self.current.dt;
         let tracked = Tracked::slot(&mut self.bodies, handle);
-        let lost = tracked.drop_lost_shadow(rb);
+        if tracked.drop_lost_shadow(rb) {
+            tracked.end(&mut self.surfaces, &mut self.closed, &mut self.events);
+        }
+        let surfaces = &self.surfaces;
         let mut course = Course::of(rb, tracked, gravity);
         let Current { sight, contacts, .. } = self.current;
         course.near(&self.lies, surfaces, [sight, contacts], &mut tracked.near);
         tracked.near.retain(|id| gate::feels(rb, &surfaces[id.0], colliders));
         course.surfaces_speed = gate::top_speed(&self.lies, &tracked.near);
-        if lost {
-            self.closed += tracked.end(&mut self.events);
-        }
         let Some(&first) = tracked.near.first() else {
             return tracked.leave(&mut self.surfaces, &mut self.closed, &mut self.events);
         };

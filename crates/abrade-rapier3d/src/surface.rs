@@ -49,6 +49,8 @@ pub(crate) struct WornCollider {
     pub shown: Option<Shown>,
     /// How worn it was when it could last not be renewed.
     pub refused: Option<Worn>,
+    /// Overhangs have broken off in the step under way: what was read of it before no longer holds.
+    pub broken: bool,
 }
 
 impl WornCollider {
@@ -56,7 +58,8 @@ impl WornCollider {
         let inflation = surface.laws().reach();
         let bounds = bounds(&surface);
         let surface = Arc::new(surface);
-        Self { surface, proxy, offset, exact: None, bounds, inflation, shown: None, refused: None }
+        let (exact, shown, refused, broken) = (None, None, None, false);
+        Self { surface, proxy, offset, exact, bounds, inflation, shown, refused, broken }
     }
 
     /// True when the surface is due for renewal, and has worn by a good part since that was last
@@ -88,6 +91,13 @@ impl WornCollider {
             Some((seen, exact)) if seen == proxy.position() => *exact,
             _ => scalar::pose(proxy.position()) * self.offset,
         }
+    }
+
+    /// Books what broke off where a contact ended; returns the volume [m3].
+    pub fn settle_end(&mut self) -> f64 {
+        let volume = self.owned().settle().displaced();
+        self.broken |= volume > 0.0;
+        volume
     }
 
     /// The surface, to be worn.

@@ -12,6 +12,7 @@ use crate::booking::{Booking, Contact};
 use crate::derive;
 use crate::event::{Refusal, WearEvent};
 use crate::gate::Lie;
+use crate::micro::{self, Volumes};
 use crate::print::{self, Print};
 use crate::quasi_static::Pressing;
 use crate::resolver::Resolver;
@@ -221,11 +222,52 @@ impl Tracked {
         })
     }
 
-    /// Ends the running encounter and returns its ledger.
-    pub fn end(&mut self, events: &mut Vec<WearEvent>) -> Ledger {
-        let Some(live) = self.live.take() else { return Ledger::default() };
-        Contact::end(&mut self.contact, self.handle, events);
-        *live.encounter.ledger()
+    /// Ends the running encounter, and the contact that is open with it.
+    pub fn end(
+        &mut self,
+        surfaces: &mut [WornCollider],
+        closed: &mut Ledger,
+        events: &mut Vec<WearEvent>,
+    ) {
+        let Some(live) = self.live.take() else { return };
+        self.close(live.end(surfaces), closed);
+        self.end_contact(events);
+    }
+
+    /// Ends the encounter with a wall, and the contact that is open with it.
+    pub fn end_against(
+        &mut self,
+        surfaces: &mut [WornCollider],
+        closed: &mut Ledger,
+        events: &mut Vec<WearEvent>,
+    ) {
+        let Some(against) = self.against.take() else { return };
+        self.close(against.end(surfaces), closed);
+        self.end_contact(events);
+    }
+
+    /// Ends what QuasiStatic has pressed it against.
+    pub fn end_pressing(
+        &mut self,
+        pressing: Pressing,
+        surfaces: &mut [WornCollider],
+        closed: &mut Ledger,
+    ) {
+        self.close(pressing.end(surfaces), closed);
+    }
+
+    /// Lets go of the springs that Lockstep kept.
+    pub fn end_wearer(&mut self, surfaces: &mut [WornCollider], closed: &mut Ledger) {
+        let Some((ids, wearer)) = self.wearer.take() else { return };
+        let mut change = Ledger::default();
+        let broken = micro::end(surfaces, &ids, None, |placed| change = wearer.end(placed));
+        self.close((change, broken), closed);
+    }
+
+    /// Adds the energies of what has ended, and what broke off to the contact that is open.
+    fn close(&mut self, (ledger, broken): (Ledger, Volumes), closed: &mut Ledger) {
+        *closed += ledger;
+        Contact::add_broken(&mut self.contact, &broken);
     }
 
     /// True in the middle of a blow on springs, which may pass the turning point, where it is slow.
@@ -273,9 +315,9 @@ impl Tracked {
         surfaces: &mut [WornCollider],
         closed: &mut Ledger,
     ) {
-        for pressing in self.pressing.extract_if(.., |p| !kept.contains(&p.surface)) {
-            let mut pressing = pressing;
-            *closed += pressing.end(surfaces);
+        while let Some(at) = self.pressing.iter().position(|p| !kept.contains(&p.surface)) {
+            let pressing = self.pressing.remove(at);
+            self.end_pressing(pressing, surfaces, closed);
         }
     }
 
@@ -286,7 +328,7 @@ impl Tracked {
         closed: &mut Ledger,
         events: &mut Vec<WearEvent>,
     ) {
-        *closed += self.end(events);
+        self.end(surfaces, closed, events);
         self.let_go(surfaces, closed);
         if self.against.is_none() {
             Contact::end(&mut self.contact, self.handle, events);
@@ -296,7 +338,8 @@ impl Tracked {
     /// Lets go of what the resolvers other than Micro kept.
     fn let_go(&mut self, surfaces: &mut [WornCollider], closed: &mut Ledger) {
         self.let_go_but(&[], surfaces, closed);
-        (self.wearer, self.friction) = (None, 0.0);
+        self.end_wearer(surfaces, closed);
+        self.friction = 0.0;
         self.borne.clear();
     }
 

@@ -4,7 +4,7 @@
 //! The wall is the striker of the encounter, a body that nothing moves; the body is what carries
 //! the surface. It goes through the step in Micro, if nothing else could come near it.
 
-use abrade::{Body, Encounter, Inertia, Loads, PhysicsError, State, Until};
+use abrade::{Body, Encounter, Inertia, Ledger, Loads, PhysicsError, State, Until};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::{Collider, ColliderHandle};
@@ -14,11 +14,11 @@ use crate::booking::Booking;
 use crate::event::Refusal;
 use crate::free;
 use crate::gate::{Course, Lie};
-use crate::micro;
+use crate::micro::{self, Volumes};
 use crate::obstacle::Search;
 use crate::path::Extent;
 use crate::resolver::Resolve;
-use crate::surface::SurfaceId;
+use crate::surface::{SurfaceId, WornCollider};
 use crate::track::Track;
 use crate::tracked::Tracked;
 use crate::view::WorldView;
@@ -143,10 +143,7 @@ impl WearWorld {
     /// Ends the encounter of a body with its wall.
     fn leave_wall(&mut self, body: RigidBodyHandle) {
         let tracked = Tracked::slot(&mut self.bodies, body);
-        if let Some(against) = tracked.against.take() {
-            self.closed += *against.encounter.ledger();
-            tracked.end_contact(&mut self.events);
-        }
+        tracked.end_against(&mut self.surfaces, &mut self.closed, &mut self.events);
     }
 
     /// Carries a body through the step against a wall; false for a wall of a shape without contact.
@@ -258,6 +255,15 @@ pub(crate) fn striker(collider: &Collider, part: &Extent, frame: &Isometry3<f64>
     let state = State { rotation: place.rotation, ..State::at(place.translation.vector.into()) };
     let state = state.seen_from(frame);
     Some(Body { shape, inertia: Inertia::immovable(), state, rotation_locked: false })
+}
+
+impl Against {
+    /// Ends the encounter; returns its energies, and the volumes that broke off.
+    pub fn end(mut self, surfaces: &mut [WornCollider]) -> (Ledger, Volumes) {
+        let broken =
+            micro::end(surfaces, &[self.surface], None, |placed| self.encounter.end(placed));
+        (*self.encounter.ledger(), broken)
+    }
 }
 
 #[cfg(feature = "serde-serialize")]

@@ -111,8 +111,8 @@ pub enum ShapeError {
 /// Why a contact could not be carried on: a physical state outside the model's reach.
 #[derive(Clone, Debug, PartialEq, Error)]
 pub enum PhysicsError {
-    /// The body's centre of mass went below the undeformed surface; beside a strip, by more than the
-    /// body reaches, while it touches nodes.
+    /// The body's centre of mass went below the undeformed surface; beside a strip, by twice as far
+    /// as the body reaches, while it touches nodes.
     #[error(
         "the body's centre of mass is {depth:e} m below the undeformed surface: the crater is deeper than the body, which is outside the model"
     )]

@@ -23,6 +23,8 @@ const RISE_PITCH: f64 = 0.25;
 const STOPPED: f64 = 1e-9;
 /// Share of it below which what is left of the motion of a body in contact is lost in rounding.
 const HELD: f64 = 1e-20;
+/// Depth beside a strip from which what touches it is engulfed, in bounding radii.
+const BESIDE: f64 = 2.0;
 
 impl Integrator {
     /// After a contact: time until the whole body is above the undeformed surfaces [s], so that a
@@ -145,14 +147,15 @@ impl Integrator {
     }
 
     /// An error when the centre of mass is below an undeformed surface, of a body without one of its
-    /// own. A body that hangs over the edge of a strip may be as far below as it reaches; what touches
-    /// nodes from farther down is in a crater deeper than itself.
+    /// own. A body that hangs over the edge of a strip may slip past it; what touches nodes from far
+    /// below cuts them deeper than itself.
     pub(crate) fn check_depth(
         &self,
         body: &Body,
         surfaces: &[Placed<'_>],
     ) -> Result<(), PhysicsError> {
-        let beside = if self.touching { body.shape.bounding_radius() } else { f64::INFINITY };
+        let deep = BESIDE * body.shape.bounding_radius();
+        let beside = if self.touching { deep } else { f64::INFINITY };
         for placed in surfaces {
             // The middle of a ring lies in what it turns on.
             if placed.skin.is_some() {

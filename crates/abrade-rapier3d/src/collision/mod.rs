@@ -158,24 +158,12 @@ impl WearWorld {
         if self.current.dt == 0.0 {
             return;
         }
-        let mut crowded = std::mem::take(&mut self.current.crowded);
+        let crowded = std::mem::take(&mut self.current.crowded);
         let mut old = std::mem::take(&mut self.bores);
         if crowded.is_empty() && old.is_empty() {
             return;
         }
-        crowded.sort_by_key(|(surface, _)| *surface);
-        crowded.dedup_by_key(|(surface, _)| *surface);
-        let mut met = BTreeMap::new();
-        for &(surface, reason) in &crowded {
-            let proxy = self.surfaces[surface.0].proxy;
-            let pairs = world.narrow_phase.contact_pairs_with(proxy);
-            for pair in pairs.filter(|pair| moving(pair, world).is_some()) {
-                // One of two crowded surfaces is enough.
-                if let Some(blow) = Blow::of(pair, world, &self.before) {
-                    met.entry(key(pair)).or_insert((pair, blow, reason));
-                }
-            }
-        }
+        let met = self.met(crowded, world);
         let gravity = scalar::vector(world.gravity).norm();
         let rest = (REST * gravity * self.current.dt).max(self.still());
         let fresh = Bore::default();
@@ -201,7 +189,34 @@ impl WearWorld {
             }
             self.bores.insert(key, bore);
         }
-        for (key, mut bore) in old {
+        self.wait(old);
+    }
+
+    /// The contacts of `crowded` surfaces with what moves over them, and why they wear by impulses.
+    fn met<'w>(
+        &self,
+        mut crowded: Vec<(SurfaceId, Refusal)>,
+        world: &WorldView<'w>,
+    ) -> BTreeMap<PairKey, (&'w ContactPair, Blow, Refusal)> {
+        crowded.sort_by_key(|(surface, _)| *surface);
+        crowded.dedup_by_key(|(surface, _)| *surface);
+        let mut met = BTreeMap::new();
+        for (surface, reason) in crowded {
+            let proxy = self.surfaces[surface.0].proxy;
+            let pairs = world.narrow_phase.contact_pairs_with(proxy);
+            for pair in pairs.filter(|pair| moving(pair, world).is_some()) {
+                // One of two crowded surfaces is enough.
+                if let Some(blow) = Blow::of(pair, world, &self.before) {
+                    met.entry(key(pair)).or_insert((pair, blow, reason));
+                }
+            }
+        }
+        met
+    }
+
+    /// Keeps for a while what lies where no contact bore it in the step; ends the others.
+    fn wait(&mut self, bores: Bores) {
+        for (key, mut bore) in bores {
             let Some(mut kept) = bore.kept.take() else { continue };
             // Somebody else has the body, and wears what it lies on.
             let is_taken = self.taken.has_body(Some(kept.body()));

@@ -12,7 +12,7 @@ mod widen;
 
 use std::collections::BTreeMap;
 
-use abrade::{Body, PhysicsError, Surface};
+use abrade::{Body, PhysicsError, Placed, Surface};
 use abrade_lockstep::rapier as fine;
 use abrade_lockstep::{Done, Island, IslandSettings, Proxy, Wearer};
 use nalgebra::{Isometry3, Vector3};
@@ -23,7 +23,7 @@ use crate::gate::Lie;
 use crate::held::Held;
 use crate::lockstep::articulation::{Since, articulations, motion};
 pub(crate) use crate::lockstep::cast::meeting;
-use crate::lockstep::copy::copy;
+use crate::lockstep::copy::{Twin, copy};
 use crate::lockstep::members::Members;
 pub(crate) use crate::lockstep::members::gather;
 use crate::micro::placed;
@@ -90,8 +90,7 @@ impl WearWorld {
         // Members may stand on other surfaces, which do not wear in the island.
         self.surfaces.iter().for_each(|worn| members.add_standing(worn.proxy));
         let copy = copy(&members, world, &self.before, &self.bodies)?;
-        let settings = self.settings.encounter();
-        let identity = Isometry3::identity();
+        self.end_astray(&held);
         let lies = &self.lies;
         let seat = |id: &SurfaceId| Lie::find(lies, *id).map(|lie| (lie.pose, None));
         let seats: Vec<_> = ids.iter().filter_map(seat).collect();
@@ -99,58 +98,11 @@ impl WearWorld {
         let leaf = |id: &SurfaceId| Surface::leaf(&self.surfaces[id.0].surface);
         let mut leaves: Vec<Surface> = ids.iter().map(leaf).collect();
         let mut placed = placed(leaves.iter_mut(), &seats);
-        let mut wearers = Vec::new();
-        let mut wearing = Vec::new();
-        for held in &held {
-            let tracked = Tracked::slot(&mut self.bodies, held.body);
-            let inner = copy.bodies.get(&held.body.into_raw_parts());
-            let (Some(inner), Some(rb)) = (inner, world.bodies.get(held.body)) else { continue };
-            let (Some(state), Some(body)) = (self.before.of(held.body), tracked.body()) else {
-                continue;
-            };
-            let uses = places(&held.surfaces, &ids);
-            let body = Body { state: *state, ..body.clone() };
-            let loads = gate::loads(rb, &scalar::vector(world.gravity), &identity);
-            // Springs go on from where they were left, whatever velocity the embedder gave since.
-            let known = tracked.wearer.take().filter(|(known, wearer)| {
-                let was = &wearer.body.state;
-                let same = was.position == state.position && was.rotation == state.rotation;
-                same && *known == held.surfaces && !wearer.rests()
-            });
-            let mut wearer = match known {
-                Some((_, mut wearer)) => {
-                    wearer.body.state = *state;
-                    wearer.resumed(*inner, loads, uses)
-                }
-                None => Wearer::new(*inner, body, loads, &mut placed, uses, settings)
-                    .map_err(|error| Lost::Failed(held.body, error))?,
-            };
-            wearer.bears = held.bore;
-            wearers.push(wearer);
-            wearing.push(*held);
-        }
-        let proxies = ids.iter().filter_map(|id| {
-            let worn = &self.surfaces[id.0];
-            let collider = *copy.standing.get(&worn.proxy.into_raw_parts())?;
-            Some(Proxy { collider, friction: worn.surface.laws().material.friction })
-        });
-        let proxies = proxies.collect();
-        let step_limit = self.settings.step_limit;
-        let budget = match self.settings.resolve {
-            Resolve::Lockstep => u64::MAX,
-            _ => BUDGET / members.bodies.len().max(1) as u64,
-        };
-        let settings = IslandSettings { step_limit, budget, rest_speed };
+        let (wearers, wearing) = self.wearers(&held, &ids, &copy, world, &mut placed)?;
+        let proxies = self.proxies(&ids, &copy);
+        let settings = self.island_settings(members.bodies.len(), rest_speed);
         let mut island = Island::new(copy.world, wearers, proxies, settings);
-        let dt = self.current.dt;
-        let may_gain = self.settings.resolve == Resolve::Lockstep || island.is_driven();
-        let [kinetic, before] = island.energies();
-        let done = island
-            .advance(&mut placed, dt, &mut |_, _, _| ())
-            .map_err(|error| Lost::Failed(held[0].body, error))?;
-        if !may_gain && island.energies()[1] - before > GAIN * kinetic {
-            return Err(Refusal::Stiff.into());
-        }
+        let done = self.run(&mut island, &mut placed, held[0].body)?;
         let changes: Vec<_> = leaves.into_iter().map(Surface::into_changes).collect();
         for (id, changes) in ids.iter().zip(&changes) {
             self.surfaces[id.0].owned().apply(changes);
@@ -158,6 +110,100 @@ impl WearWorld {
         self.counters.node_evaluations += island.node_evaluations();
         self.hand_back(&island, &copy.bodies, &members, world);
         Ok((self.settle_island(island, &wearing), done))
+    }
+
+    /// The bodies of the island that wear its surfaces `ids`, on the springs that they have, and which
+    /// of the `held` each of them is.
+    fn wearers<'h>(
+        &self,
+        held: &[&'h Held],
+        ids: &[SurfaceId],
+        copy: &Twin,
+        world: &WorldView<'_>,
+        placed: &mut [Placed<'_>],
+    ) -> Result<(Vec<Wearer>, Vec<&'h Held>), Lost> {
+        let (mut wearers, mut wearing) = (Vec::new(), Vec::new());
+        let gravity = scalar::vector(world.gravity);
+        for held in held {
+            let inner = copy.bodies.get(&held.body.into_raw_parts());
+            let (Some(inner), Some(rb)) = (inner, world.bodies.get(held.body)) else { continue };
+            let tracked = Tracked::find(&self.bodies, held.body);
+            let body = tracked.and_then(Tracked::body);
+            let (Some(state), Some(body)) = (self.before.of(held.body), body) else { continue };
+            let uses = places(&held.surfaces, ids);
+            let loads = gate::loads(rb, &gravity, &Isometry3::identity());
+            // Kept as they are, should the island come to nothing.
+            let mut wearer = match tracked.and_then(|tracked| tracked.wearer.clone()) {
+                Some((_, mut wearer)) => {
+                    wearer.body.state = *state;
+                    wearer.resumed(*inner, loads, uses)
+                }
+                None => {
+                    let body = Body { state: *state, ..body.clone() };
+                    let settings = self.settings.encounter();
+                    Wearer::new(*inner, body, loads, placed, uses, settings)
+                        .map_err(|error| Lost::Failed(held.body, error))?
+                }
+            };
+            wearer.bears = held.bore;
+            wearers.push(wearer);
+            wearing.push(*held);
+        }
+        Ok((wearers, wearing))
+    }
+
+    /// What the surfaces `ids` stand on in the island.
+    fn proxies(&self, ids: &[SurfaceId], copy: &Twin) -> Vec<Proxy> {
+        let proxy = |id: &SurfaceId| {
+            let worn = &self.surfaces[id.0];
+            let collider = *copy.standing.get(&worn.proxy.into_raw_parts())?;
+            Some(Proxy { collider, friction: worn.surface.laws().material.friction })
+        };
+        ids.iter().filter_map(proxy).collect()
+    }
+
+    /// Settings of an island of `count` bodies.
+    fn island_settings(&self, count: usize, rest_speed: f64) -> IslandSettings {
+        let budget = match self.settings.resolve {
+            Resolve::Lockstep => u64::MAX,
+            _ => BUDGET / count.max(1) as u64,
+        };
+        IslandSettings { step_limit: self.settings.step_limit, budget, rest_speed }
+    }
+
+    /// Takes the island through the step; `first` is told as the body of an error.
+    fn run(
+        &self,
+        island: &mut Island,
+        placed: &mut [Placed<'_>],
+        first: RigidBodyHandle,
+    ) -> Result<Done, Lost> {
+        let may_gain = self.settings.resolve == Resolve::Lockstep || island.is_driven();
+        let [kinetic, before] = island.energies();
+        let done = island
+            .advance(placed, self.current.dt, &mut |_, _, _| ())
+            .map_err(|error| Lost::Failed(first, error))?;
+        match !may_gain && island.energies()[1] - before > GAIN * kinetic {
+            true => Err(Refusal::Stiff.into()),
+            false => Ok(done),
+        }
+    }
+
+    /// Ends the springs of bodies that do not go on from where these were left, whatever velocity the
+    /// embedder gave since.
+    fn end_astray(&mut self, held: &[&Held]) {
+        for held in held {
+            let Some(state) = self.before.of(held.body) else { continue };
+            let tracked = Tracked::slot(&mut self.bodies, held.body);
+            let goes_on = tracked.wearer.as_ref().is_some_and(|(known, wearer)| {
+                let was = &wearer.body.state;
+                let same = was.position == state.position && was.rotation == state.rotation;
+                same && *known == held.surfaces && !wearer.rests()
+            });
+            if !goes_on {
+                tracked.end_wearer(&mut self.surfaces, &mut self.closed);
+            }
+        }
     }
 
     /// Sums up what the island did to its `wearing` bodies, and keeps their springs.

@@ -4,10 +4,12 @@
 mod closed;
 mod collision;
 mod crowd;
+mod drive;
 mod gate;
 mod hail;
 mod hooks;
 mod independence;
+mod leave;
 mod lying;
 mod query_collider;
 mod query_tiles;

@@ -27,11 +27,20 @@ pub struct Rig {
     pub proxy: ColliderHandle,
 }
 
+/// Of the plate under one ball.
+pub const STRIP: HexStrip =
+    HexStrip { length: 30e-3, width: 12e-3, pitch: 0.1e-3, rest_area: None };
+
 pub fn surface() -> Surface {
-    plate(HexStrip { length: 30e-3, width: 12e-3, pitch: 0.1e-3, rest_area: None })
+    plate(STRIP)
 }
 
 fn plate(strip: HexStrip) -> Surface {
+    plate_of(strip, 1.0)
+}
+
+/// A plate whose springs give back a share of the speed below yield.
+pub fn plate_of(strip: HexStrip, restitution: f64) -> Surface {
     let material = Material {
         hardness: 6.6e9,
         shear_ratio: 0.25,
@@ -39,7 +48,7 @@ fn plate(strip: HexStrip) -> Surface {
         poisson: 0.3,
         friction: 0.5,
     };
-    let laws = SurfaceLaws::of(material);
+    let laws = SurfaceLaws { restitution, ..SurfaceLaws::of(material) };
     Surface::hex_strip(strip, laws).expect("a plate")
 }
 
@@ -60,7 +69,7 @@ impl Rig {
         Self::of(plate(strip), [75e-3; 2], Resolve::Micro, Vector3::zeros(), dt)
     }
 
-    fn of(
+    pub fn of(
         surface: Surface,
         half: [f64; 2],
         resolve: Resolve,
