@@ -240,7 +240,9 @@ def abrade_once(program, case, sets, times):
     for one in sets:
         command += ["--set", one]
     every = [measure.run(command) for _ in range(times)]
-    summary = json.loads(every[0].text)
+    # Notes stand around it.
+    text = every[0].text
+    summary, _ = json.JSONDecoder().raw_decode(text[text.index("{") :])
     wall, cpu = min(taken.wall for taken in every), min(taken.cpu for taken in every)
     again = [program.warm, out, times if cpu > WARM else WARM_RUNS, measure.ROOT / case.scene]
     # A loop in wall time includes what other programs took meanwhile; it is part of the process.

@@ -80,6 +80,7 @@ impl Ahead {
 impl WearWorld {
     /// Runs the candidates of the step ahead.
     pub(crate) fn run_ahead(&mut self, world: &WorldView<'_>) {
+        self.surfaces.iter_mut().for_each(|worn| worn.broken = false);
         self.changed.note(&self.surfaces, self.candidates.len());
         let slot = |handle: &RigidBodyHandle| handle.into_raw_parts().0 as usize;
         let indices: Vec<usize> = self.candidates.iter().map(slot).collect();

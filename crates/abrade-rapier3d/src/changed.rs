@@ -53,10 +53,10 @@ impl Changed {
 
     /// True when no undeformed node in the box has been changed, nor one that sank into it.
     pub fn spares(&self, surface: usize, worn: &WornCollider, read: [Point3<f64>; 2]) -> bool {
-        let Some(places) = self.places.get(surface) else { return true };
         if worn.broken {
             return false;
         }
+        let Some(places) = self.places.get(surface) else { return true };
         let [low, high] = read;
         let read = Extent { low, high }.grown(worn.surface.worn().max_depth);
         !places.bins.find(0, &read).any(|place| places.boxes[place as usize].meets(&read))

@@ -5,6 +5,7 @@ use nalgebra::{Isometry3, Vector3};
 use rapier::dynamics::{RigidBodyHandle, RigidBodySet, RigidBodyType};
 
 use crate::error::{Led, WearError};
+use crate::micro;
 use crate::observer::{Relay, WearObserver};
 use crate::scalar;
 use crate::surface::{SurfaceId, WornCollider};
@@ -60,11 +61,13 @@ impl WearWorld {
         self.driven.iter().find(|d| d.handle == handle).map(|d| &d.driven)
     }
 
-    /// Forgets the drives of bodies that are gone, but for their energies.
+    /// Ends the drives of bodies that are gone.
     pub(crate) fn drop_driven(&mut self, bodies: &RigidBodySet) {
-        let closed = &mut self.closed;
-        let gone = self.driven.extract_if(.., |driven| !bodies.contains(driven.handle));
-        gone.for_each(|driven| *closed += *driven.ledger());
+        for mut gone in self.driven.extract_if(.., |driven| !bodies.contains(driven.handle)) {
+            let end = |placed: &mut [Placed<'_>]| gone.driven.end(placed);
+            micro::end(&mut self.surfaces, &[gone.surface], None, end);
+            self.closed += *gone.ledger();
+        }
     }
 
     /// Carries every driven body through the step under way.
@@ -111,9 +114,6 @@ impl DrivenBody {
         if !self.indented {
             pressed = self.driven.indent(&mut self.body, &mut placed, &mut relay)?;
             self.indented = true;
-        }
-        if self.driven.is_done() {
-            return Ok(pressed);
         }
         let mut advance = self.driven.advance(&mut self.body, &mut placed, dt, &mut relay)?;
         advance.steps += pressed.steps;

@@ -129,6 +129,7 @@ impl WearWorld {
         bodies: &mut RigidBodySet,
         colliders: &ColliderSet,
     ) -> Result<(), WearError> {
+        self.drop_gone(bodies);
         let missing = WearError::NoSuchBody { body: handle };
         let rb = bodies.get_mut(handle).filter(|rb| rb.is_dynamic()).ok_or(missing)?;
         rb.recompute_mass_properties_from_colliders(colliders);

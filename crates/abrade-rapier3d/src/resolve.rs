@@ -3,7 +3,7 @@
 
 use abrade::{PhysicsError, State, Until};
 use nalgebra::Isometry3;
-use rapier::dynamics::RigidBodyHandle;
+use rapier::dynamics::{RigidBodyHandle, RigidBodySet};
 
 use crate::booking::Booking;
 use crate::error::WearError;
@@ -68,6 +68,16 @@ impl WearWorld {
             }
             Left::Refused(reason) => self.leave(handle, surface, reason, world),
             Left::Failed(error) => self.fail(handle, surface, error),
+        }
+    }
+
+    /// Ends the contacts of bodies that are gone.
+    pub(crate) fn drop_gone(&mut self, bodies: &RigidBodySet) {
+        let is_gone = |tracked: &Tracked| tracked.is_open() && !bodies.contains(tracked.handle);
+        for slot in &mut self.bodies {
+            let Some(mut gone) = slot.take_if(|tracked| is_gone(tracked)) else { continue };
+            gone.end_against(&mut self.surfaces, &mut self.closed, &mut self.events);
+            gone.leave(&mut self.surfaces, &mut self.closed, &mut self.events);
         }
     }
 
@@ -186,6 +196,7 @@ impl WearWorld {
         let Carried { advance, worn, .. } = carried;
         let touches = tracked.live.as_ref().is_some_and(|live| live.encounter.in_contact());
         let (impulse, contact_time) = (frame * advance.impulse, advance.contact_time);
+        tracked.taken_by_micro(&mut self.surfaces, &mut self.closed, &mut self.events);
         tracked.book(&Booking { impulse, contact_time, touches }, worn, &mut self.events);
         self.counters.add(advance);
         if advance.exited && until == Until::FirstExit {
@@ -197,6 +208,5 @@ impl WearWorld {
         if advance.exited && !touches {
             tracked.end(&mut self.surfaces, &mut self.closed, &mut self.events);
         }
-        tracked.taken_by_micro(&mut self.surfaces, &mut self.closed, &mut self.events);
     }
 }

@@ -188,14 +188,15 @@ impl WearWorld {
         self.held.clear();
         self.sleepers.clear();
         for handle in self.candidates.drain(..) {
-            let tracked = Tracked::slot(&mut self.bodies, handle);
-            (tracked.course, tracked.ahead) = (None, None);
+            // Another body may have taken its place since.
+            if let Some(Some(tracked)) = self.bodies.get_mut(handle.into_raw_parts().0 as usize) {
+                (tracked.course, tracked.ahead) = (None, None);
+            }
         }
         self.taken.clear();
         self.obstacles.clear();
         self.neighbours.clear();
         self.changed.clear();
-        self.surfaces.iter_mut().for_each(|worn| worn.broken = false);
     }
 
     /// What the bodies near a surface may run into, each other included.
@@ -221,6 +222,7 @@ impl WearWorld {
 
     /// Finds the bodies near a surface; ends encounters of those that are not.
     fn choose(&mut self, world: &mut WorldView<'_>, gravity: &Vector3<f64>) {
+        self.drop_gone(world.bodies);
         let times = [self.current.dt, self.current.sight];
         gate::lie(&self.surfaces, world, &self.bodies, times, &mut self.lies);
         let mut picked = std::mem::take(&mut self.picked);

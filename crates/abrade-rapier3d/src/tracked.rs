@@ -335,6 +335,13 @@ impl Tracked {
         }
     }
 
+    /// True while something is kept of a contact.
+    pub fn is_open(&self) -> bool {
+        let Self { live, against, pressing, wearer, contact, .. } = self;
+        let runs = live.is_some() || against.is_some() || wearer.is_some();
+        runs || !pressing.is_empty() || contact.is_some()
+    }
+
     /// Lets go of what the resolvers other than Micro kept.
     fn let_go(&mut self, surfaces: &mut [WornCollider], closed: &mut Ledger) {
         self.let_go_but(&[], surfaces, closed);

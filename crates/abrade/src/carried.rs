@@ -253,7 +253,7 @@ impl Carried {
             self.integrator.touched = true;
         }
         self.integrator.lead(body, surfaces, &trial, [end.velocity, end.spin]);
-        self.integrator.keep_step(next_dt, self.integrator.eta / allowed, trial.touching > 0);
+        self.integrator.keep_step(next_dt, self.integrator.eta / allowed);
         if self.integrator.touched && self.integrator.contact_is_over(body, surfaces) {
             self.integrator.end_contact(surfaces);
         }

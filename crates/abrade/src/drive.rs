@@ -117,6 +117,14 @@ impl Driven {
         self.travelled >= self.drive.distance
     }
 
+    /// Ends the contact: what its springs hold is lost, and overhangs break off. Leaves surfaces alone
+    /// that it was not made with.
+    pub fn end(&mut self, surfaces: &mut [Placed<'_>]) {
+        if self.integrator.fits(surfaces).is_ok() {
+            self.integrator.let_go(surfaces);
+        }
+    }
+
     /// The energies since the sliding began; zeros unless asked for.
     pub fn ledger(&self) -> &Ledger {
         self.integrator.ledger()

@@ -155,7 +155,8 @@ impl Integrator {
         surfaces: &[Placed<'_>],
     ) -> Result<(), PhysicsError> {
         let deep = BESIDE * body.shape.bounding_radius();
-        let beside = if self.touching { deep } else { f64::INFINITY };
+        // Of several surfaces it is not known which of them it touches.
+        let beside = if self.touching && surfaces.len() == 1 { deep } else { f64::INFINITY };
         for placed in surfaces {
             // The middle of a ring lies in what it turns on.
             if placed.skin.is_some() {

@@ -381,7 +381,7 @@ impl Integrator {
             }
             self.touched |= touches;
             let next_dt = self.step_after(dt, allowed);
-            self.keep_step(next_dt, omega, trial.touching > 0);
+            self.keep_step(next_dt, omega);
             self.accept(body, surfaces, loads, dt, trial, done);
             self.check_depth(body, surfaces)?;
             self.check_balance(body, surfaces)?;
@@ -395,11 +395,11 @@ impl Integrator {
         allowed.min(GROWTH * dt.max(self.next_dt.min(allowed)))
     }
 
-    /// Keeps the length of the next step [s], and the angular frequency [1/s] on springs that are touched.
-    pub(crate) fn keep_step(&mut self, dt: f64, omega: f64, touches: bool) {
+    /// Keeps the length of the next step [s], and the angular frequency [1/s] on springs, if any is touched.
+    pub(crate) fn keep_step(&mut self, dt: f64, omega: f64) {
         self.next_dt = dt.min(LONGEST);
-        if touches {
-            self.tau = if omega > 0.0 { 1.0 / omega } else { 0.0 };
+        if omega > 0.0 {
+            self.tau = 1.0 / omega;
         }
     }
 

@@ -284,7 +284,7 @@ impl Integrator {
         };
         self.touching = trial.touching > 0;
         let omega = self.omega(trial);
-        self.keep_step(self.eta / omega, omega, self.touching);
+        self.keep_step(self.eta / omega, omega);
     }
 }
 

@@ -49,4 +49,5 @@ fn a_drive_ends_with_its_body() {
     rig.step();
     assert_eq!((rig.wear[rig.plate].wear_volume(), rig.wear.ledger().wear), (worn, work));
     assert!(rig.wear.driven(body).is_none());
+    assert_eq!(rig.wear.ledger().elastic, 0.0);
 }

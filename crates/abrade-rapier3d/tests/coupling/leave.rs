@@ -87,3 +87,47 @@ fn overhangs_over_a_blade_that_is_taken_away_break_off() {
     let displaced = rig.wear[rig.plate].worn().displaced();
     assert!((volume / displaced - 1.0).abs() < 1e-9, "{volume:e} of {displaced:e}");
 }
+
+/// Fails for springs of a body that is no more, for an end that nobody is told of, and for the books of its
+/// contact that go with its place.
+#[test]
+fn the_contact_of_a_body_that_is_removed_ends() {
+    let mut rig = Rig::new(Vector3::zeros(), 1e-6);
+    let velocity = towards_plate(35.0, 60.0);
+    let ball = rig.ball(Vector3::z() * (RADIUS + GAP), velocity);
+    while rig.wear[rig.plate].wear_volume() == 0.0 {
+        rig.step();
+    }
+    let before = rig.wear.ledger();
+    assert!(before.elastic > 0.0);
+    rig.world.remove_body(ball);
+    // It takes the place of the first.
+    let other = rig.ball(Vector3::z() * (RADIUS + GAP), velocity);
+    assert_eq!(other.into_raw_parts().0, ball.into_raw_parts().0);
+    let first = rig.wear[rig.plate].wear_volume();
+    while rig.wear[rig.plate].wear_volume() == first {
+        rig.step();
+        let after = rig.wear.ledger();
+        assert!(after.wear >= before.wear && after.history >= before.elastic, "{after:?}");
+    }
+}
+
+/// Fails for a body that is given a place among those of the last step, and is forgotten there with the
+/// shape and the state that it was given.
+#[test]
+fn a_body_that_takes_the_place_of_another_is_carried_as_it_was_placed() {
+    let velocity = towards_plate(35.0, 60.0);
+    let worn = |follows: bool| {
+        let mut rig = Rig::new(Vector3::zeros(), 1e-6);
+        if follows {
+            let ball = rig.ball(Vector3::z() * (RADIUS + GAP), -velocity);
+            rig.step();
+            rig.world.remove_body(ball);
+        }
+        rig.ball(Vector3::z() * (RADIUS + GAP), velocity);
+        (0..400).for_each(|_| rig.step());
+        rig.wear[rig.plate].wear_volume()
+    };
+    assert!(worn(false) > 0.0);
+    assert_eq!(worn(true), worn(false));
+}
