@@ -15,7 +15,7 @@ use crate::{earlier, interrupt, kind, output_folder, say};
 pub(crate) fn run(arguments: &AdhesiveRunArguments) -> Result<(), Failure> {
     let file = kind::asperities(&arguments.scene, &arguments.sets)?;
     let folder = output_folder::chosen(arguments.out.as_deref(), &arguments.scene);
-    earlier::make_way_for_run(&folder)?;
+    earlier::make_way_for_run(&folder, &file.name, arguments.out.is_some())?;
     output_folder::make(&folder)?;
     let stop = interrupt::flag();
     let mut bar = Bar::new(&stop);

@@ -74,6 +74,9 @@ fn write_digest(
     let of_stream = |name: &String| checked.is_streamed(name);
     for (name, body) in summary.bodies.iter().filter(|(name, _)| !of_stream(name)) {
         let line = match (body.restitution, body.rebound_angle) {
+            (Some(restitution), Some(angle)) if angle < 0.0 => {
+                format!("sinks on with {restitution:.3} of its speed, at {:.1} deg", -angle)
+            }
             (Some(restitution), Some(angle)) => {
                 format!(
                     "leaves with {restitution:.3} of its speed, at {angle:.1} deg from the surface"
@@ -168,7 +171,10 @@ fn energy_text(ledger: &EnergySummary) -> String {
     let always =
         [("kinetic", ledger.kinetic), ("wear", ledger.wear), ("friction", ledger.friction)];
     let parts = always.into_iter().chain(others).chain([("numerical", ledger.numerical)]);
-    let parts: Vec<_> = parts.map(|(name, part)| format!("{name} {}", joules(part))).collect();
+    // What is rounding beside the rest is nothing.
+    let told =
+        |part: f64| if part.abs() > NOTHING * scale { joules(part) } else { "0 J".to_owned() };
+    let parts: Vec<_> = parts.map(|(name, part)| format!("{name} {}", told(part))).collect();
     format!("{} at the start{work}: {}", joules(ledger.initial), parts.join(", "))
 }
 

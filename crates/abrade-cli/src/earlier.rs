@@ -11,10 +11,14 @@ use serde_json::Value;
 use crate::failure::Failure;
 use crate::say;
 
-/// Makes sure that a run may write into `folder`; says so if it replaces another one.
-pub(crate) fn make_way_for_run(folder: &Path) -> Result<(), Failure> {
+/// Makes sure that the run `own` may write into `folder`; says so if it replaces another one. Where nobody
+/// has `named` the folder, it replaces those of its own name alone.
+pub(crate) fn make_way_for_run(folder: &Path, own: &str, named: bool) -> Result<(), Failure> {
     let summary = folder.join("summary.json");
     match run_name(&summary) {
+        Some(name) if name != own && !named => {
+            return Err(foreign(folder, &format!("the run `{name}`")));
+        }
         Some(name) => tell(&format!("the run `{name}`"), &summary, folder),
         // Of a run that was broken off there is nothing to tell.
         None if run_files::is_of_run(folder) || is_empty(folder) => {}
@@ -54,8 +58,8 @@ pub(crate) fn tell_others(others: usize, folder: &Path) {
         let others = count(others, "case is", "cases are");
         let place = say::place(folder);
         say::aside(&format!(
-            "note: {others} in {place} of the study before it changed: they stay there beside those that are \
-             made now"
+            "note: {others} in {place} of another study, or of this one before it changed: they stay there beside \
+             those that are made now"
         ));
     }
 }

@@ -12,7 +12,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<(), Failure> {
     let checked = kind::scene(&arguments.scene.scene, &arguments.scene.sets)?;
     let folder = output_folder::chosen(arguments.out.as_deref(), &arguments.scene.scene);
     output_folder::probe(&folder)?;
-    earlier::make_way_for_run(&folder)?;
+    earlier::make_way_for_run(&folder, &checked.scene.name, arguments.out.is_some())?;
     let stop = interrupt::flag();
     // Before it begins: who reads them may wish to break it off.
     checked.notes.iter().for_each(|note| say::aside(&format!("note: {note}")));

@@ -24,14 +24,15 @@ pub(crate) fn rows(file: &StudyFile) -> String {
     };
     let degrees: Vec<f64> = angles.iter().map(|angle| angle.to_degrees()).collect();
     let [least, most] = bounds(file);
-    let each = format!("{} to {} in each case", samples.least, samples.most);
+    let each = range(samples.least, samples.most);
+    let all = range(least, most);
     let mut rows = vec![
         row("study", file.name.clone()),
         row("cases", format!("{cases}: every grain at every speed and angle")),
         row("grains", format!("{}: {}; {size}", grains.len(), names.join(", "))),
         row("speeds", format!("{}: {}", speeds.len(), listed(speeds, "m/s"))),
         row("angles", format!("{}: {}", angles.len(), listed(&degrees, "deg"))),
-        row("impacts", format!("{least} to {most} in all, {each}; the plate is {plate}")),
+        row("impacts", format!("{all} in all, {each} in each case; the plate is {plate}")),
     ];
     rows.extend(erosion::notes(file).into_iter().map(|note| row("note", note)));
     rows.concat()
@@ -49,6 +50,12 @@ pub(crate) fn line(file: &StudyFile) -> String {
         parts.push(count(notes, "note", "notes"));
     }
     parts.join(", ")
+}
+
+/// From `least` to `most`, or one number where they are the same.
+fn range(least: impl ToString, most: impl ToString) -> String {
+    let [least, most] = [least.to_string(), most.to_string()];
+    if least == most { least } else { format!("{least} to {most}") }
 }
 
 /// Impacts of all cases together, at least and at most.

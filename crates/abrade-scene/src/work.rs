@@ -180,6 +180,9 @@ impl Contact<'_> {
     /// A body of this `radius` [m] under its weight: it sways by the yield depth H / k_w, at
     /// sqrt(g k_w / H).
     fn pressed(&self, radius: f64) -> Work {
+        if self.gravity == 0.0 {
+            return Work::default();
+        }
         let frequency = (self.gravity * self.stiffness(radius) / self.material.hardness).sqrt();
         let each = (PRESSED * self.step * frequency / self.step_fraction).max(1.0);
         Work::new(self.limit / self.step * each, NODES_PRESSED)

@@ -30,6 +30,23 @@ fn a_run_that_replaces_another_one_says_so() {
     assert_eq!((after_kill.code, after_kill.err.as_str()), (Some(0), ""));
 }
 
+/// Fails for a scene that takes the folder of another one whose file is called alike.
+#[test]
+fn two_scenes_of_one_file_name_keep_both_runs() {
+    let folder = Folder::new("alike");
+    std::fs::create_dir(folder.0.join("other")).unwrap();
+    folder.write("other/scene.ron", &super::SCENE.replace("Oblique impact of a ball", "Another"));
+    let none = ["--set", "outputs=[]"];
+    let run = |more: &[&str]| folder.abrade(&[&["run"], more, &none].concat());
+    assert_eq!(run(&["scene.ron"]).code, Some(0));
+    let other = run(&["other/scene.ron"]);
+    let said = "the output folder `runs/scene` holds the run `Oblique impact of a ball`: name another \
+                one with --out, or empty it";
+    assert_eq!(other.code, Some(2), "{}", other.err);
+    assert!(other.err.contains(said), "{}", other.err);
+    assert_eq!(run(&["other/scene.ron", "--out", "runs/scene"]).code, Some(0));
+}
+
 /// Fails for a run that leaves files of the one in whose place it is, which would be shown with its numbers, and
 /// for one that takes files that are not abrade's.
 #[test]

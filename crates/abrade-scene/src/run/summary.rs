@@ -122,7 +122,8 @@ fn body(run: &Run<'_>, index: usize, track: &Track) -> BodySummary {
         restitution_normal: approach.and_then(|before| {
             let normal = run.bodies.normal_met(track)?;
             let towards = -before.dot(&normal);
-            (towards > 0.0).then(|| state.velocity.dot(&normal) / towards)
+            let away = state.velocity.dot(&normal);
+            (towards > 0.0 && away > 0.0).then(|| away / towards)
         }),
         mean_force: [force.x, force.y, force.z],
         ..BodySummary::of(&state)

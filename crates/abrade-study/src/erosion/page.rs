@@ -119,7 +119,8 @@ impl Erosion {
             note: format!(
                 "Energy in wear is a share of that before the impact. Restitution is speed after over speed \
                  before, and the same of its parts; a grain turns on if its rim goes round, the way a wheel \
-                 rolls, at more than {STILL} of its speed. {NOTHING}: the removal rule takes no debris of any impact."
+                 rolls, at more than {STILL} of its speed. {NOTHING}: no impact \
+                 displaces any, or the removal rule takes none of it."
             ),
             head: head.map(str::to_owned).to_vec(),
             rows: cases.map(row).collect(),
