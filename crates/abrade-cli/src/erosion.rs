@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use abrade_study::erosion::{self, Case, StudyFile, Unmade};
+use abrade_study::erosion::{self, Case, Stage, StudyFile, Unmade};
 
 use crate::arguments::FileArguments;
 use crate::failure::Failure;
@@ -95,10 +95,10 @@ impl Opened {
 
     /// How far `case` is.
     pub(crate) fn stage(&self, case: &Case) -> &'static str {
-        match self.has(case) {
-            true => "there",
-            false if erosion::is_begun(&self.file, &self.beside, case, &self.out) => "begun",
-            false => "-",
+        match erosion::stage(&self.file, &self.beside, case, &self.out) {
+            Stage::Made => "there",
+            Stage::Begun => "begun",
+            Stage::None => "-",
         }
     }
 

@@ -4,13 +4,12 @@
 
 use std::collections::BTreeMap;
 
-use abrade::{ElasticLaw, Material, Piece};
+use abrade::{ElasticLaw, Material, Piece, calibrated_yield};
 
 use crate::check::Checked;
 use crate::scene::{Geometry, Motion, SceneBody, SceneSurface, Solution, Stop, SurfaceMotion};
 use crate::size::SurfaceSize;
 use crate::solid::Solid;
-use crate::stiffness;
 
 /// Steps of a blow on springs, times the step fraction.
 const STEPS_OF_BLOW: f64 = 20.0;
@@ -51,14 +50,17 @@ impl Work {
 impl Checked {
     /// The work of the whole run, with `sizes` of the surfaces.
     pub(crate) fn work(&self, sizes: &BTreeMap<String, SurfaceSize>) -> Work {
+        let contacts = self.scene.surfaces.iter();
+        let contacts: BTreeMap<_, _> = contacts
+            .filter_map(|(name, surface)| Some((name, self.contact(name, surface, sizes)?)))
+            .collect();
         let bodies = self.scene.bodies.iter().filter_map(|(name, body)| {
-            let (surface, place) = self.met_by(body)?;
-            let contact = self.contact(surface, place, sizes)?;
+            let contact = contacts.get(self.met_by(body)?)?;
             Some(contact.of_body(self.solids.get(name)?, &body.motion))
         });
         let free = self.scene.surfaces.iter().filter_map(|(name, surface)| {
             let SurfaceMotion::Free { .. } = surface.motion else { return None };
-            let contact = self.contact(name, surface, sizes)?;
+            let contact = contacts.get(name)?;
             Some(contact.blow(NODES_PRESSED).plus(contact.pressed(contact.own_radius())))
         });
         bodies.chain(free).fold(Work::default(), Work::plus)
@@ -89,10 +91,11 @@ impl Checked {
     }
 
     /// The surface that a body is placed on, else the first one.
-    fn met_by(&self, body: &SceneBody) -> Option<(&String, &SceneSurface)> {
+    fn met_by(&self, body: &SceneBody) -> Option<&String> {
+        let surfaces = &self.scene.surfaces;
         match body.position.surface() {
-            Some(surface) => self.scene.surfaces.get_key_value(surface),
-            None => self.scene.surfaces.iter().next(),
+            Some(surface) => surfaces.get_key_value(surface).map(|(name, _)| name),
+            None => surfaces.keys().next(),
         }
     }
 }
@@ -200,7 +203,7 @@ impl Contact<'_> {
             ElasticLaw::Foundation { stiffness: Some(stiffness) } => stiffness,
             ElasticLaw::Foundation { stiffness: None } => {
                 let radius = radius.min(self.most_radius);
-                self.material.hardness / stiffness::yield_overlap(self.material, radius)
+                self.material.hardness / calibrated_yield(self.material, radius)
             }
             _ => self.material.hardness / (1e-3 * radius),
         }

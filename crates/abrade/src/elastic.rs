@@ -156,8 +156,20 @@ fn tangential_ratio(poisson: f64) -> f64 {
     2.0 * (1.0 - poisson) / (2.0 - poisson)
 }
 
-/// Range of the calibrated yield overlap H/k_w, in reference radii.
-const CALIBRATED_YIELD: [f64; 2] = [1e-4, 2e-2];
+/// Least and largest [`calibrated_yield`] over the radius [-]. Where E asks for more or less, it no
+/// longer changes the stiffness.
+pub const CALIBRATED_YIELD: [f64; 2] = [1e-4, 2e-2];
+
+/// H / k_w [m], the overlap at which `Foundation` without a stiffness of its own yields, under a striker of
+/// the reference `radius` [m]: that of Hertz, 9 pi^2 R H^2 (1 - nu^2)^2 / (16 E^2), within
+/// [`CALIBRATED_YIELD`].
+pub fn calibrated_yield(material: &Material, radius: f64) -> f64 {
+    let plane_strain = plane_strain(material);
+    let pi = std::f64::consts::PI;
+    let hertz = 16.0 * plane_strain * plane_strain / (9.0 * pi * pi * radius * material.hardness);
+    let [low, high] = CALIBRATED_YIELD.map(|d| d * radius);
+    (material.hardness / hertz).clamp(low, high)
+}
 
 /// k_w [Pa/m] of `Foundation` between two worn surfaces, by the laws of the one whose nodes they are;
 /// infinity for another law.
@@ -178,13 +190,8 @@ fn plane_strain(material: &Material) -> f64 {
 /// k_w [Pa/m] calibrated for a striker of the reference `radius` [m].
 fn calibrated(surface: &Surface, radius: f64) -> f64 {
     let material = &surface.laws.material;
-    let plane_strain = plane_strain(material);
     // On a solid that is smaller than the striker, the contact is as small as the solid.
-    let radius = radius.min(surface.size());
-    let pi = std::f64::consts::PI;
-    let hertz = 16.0 * plane_strain * plane_strain / (9.0 * pi * pi * radius * material.hardness);
-    let [low, high] = CALIBRATED_YIELD.map(|d| d * radius);
-    material.hardness / (material.hardness / hertz).clamp(low, high)
+    material.hardness / calibrated_yield(material, radius.min(surface.size()))
 }
 
 /// The elastic coefficient of `piece` against `surface`: k_w [Pa/m], K sqrt(R_eff) [N/m^1.5], or
@@ -211,12 +218,17 @@ pub(crate) fn coefficient(surface: &Surface, piece: &Piece) -> f64 {
     }
 }
 
-/// R of the calibration: a ball's own radius, the radius of a hull's volume-equivalent ball.
-fn reference_radius(piece: &Piece) -> f64 {
+/// R of the calibration [m]: a ball's own radius, the radius of a hull's volume-equivalent ball.
+pub fn reference_radius(piece: &Piece) -> f64 {
     match piece {
         Piece::Ball(ball) => ball.radius,
-        Piece::Hull(hull) => (hull.volume() * 0.75 / std::f64::consts::PI).cbrt(),
+        Piece::Hull(hull) => ball_radius(hull.volume()),
     }
+}
+
+/// Radius of a ball of this `volume` [m3] [m].
+pub fn ball_radius(volume: f64) -> f64 {
+    (volume * 0.75 / std::f64::consts::PI).cbrt()
 }
 
 #[cfg(test)]

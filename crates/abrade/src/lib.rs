@@ -84,6 +84,7 @@ pub use body::{Body, Inertia, State};
 pub use carried::{Carried, Grip, Met};
 pub use carrier::Carrier;
 pub use drive::{Drive, DriveSolution, Driven};
+pub use elastic::{CALIBRATED_YIELD, ball_radius, calibrated_yield, reference_radius};
 pub use encounter::{
     Advance, Encounter, EncounterSettings, Instant, Loads, Observer, Placed, Skin, Until,
 };

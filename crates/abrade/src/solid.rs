@@ -6,6 +6,8 @@ use parry3d_f64::math::Vector as ParryVector;
 use parry3d_f64::query::PointQuery;
 use parry3d_f64::shape::{Shape, TriMesh, TriMeshFlags};
 
+use crate::elastic::ball_radius;
+
 /// The rest shape of a mesh surface.
 #[derive(Clone, Debug)]
 pub(crate) struct Solid {
@@ -33,7 +35,7 @@ impl Solid {
     /// Radius of a ball of its volume [m].
     pub(crate) fn size(&self) -> f64 {
         let properties = self.shape.mass_properties(1.0);
-        (properties.mass() * 0.75 / std::f64::consts::PI).cbrt()
+        ball_radius(properties.mass())
     }
 
     /// Facets as indices of their corners, counter-clockwise as seen from outside.

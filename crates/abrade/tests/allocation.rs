@@ -4,14 +4,16 @@
 //! the same steps.) A contact that needs a longer candidate list than any before it may allocate.
 
 mod counting;
+mod soft;
 
 use abrade::{
     Ball, Body, ElasticLaw, Encounter, EncounterSettings, FlowLaw, HertzConvention, HexStrip, Hull,
-    Inertia, Instant, Lateral, Loads, Material, Observer, Piece, Placed, Polyhedron, Removal,
-    Shape, State, Surface, SurfaceLaws, Until,
+    Inertia, Instant, Lateral, Loads, Observer, Piece, Placed, Polyhedron, Removal, Shape, State,
+    Surface, SurfaceLaws, Until,
 };
 use counting::counted;
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
+use soft::soft;
 
 /// Allocations seen up to the first step, and up to the last.
 #[derive(Default)]
@@ -33,18 +35,11 @@ const PITCH: f64 = 0.03;
 
 /// Allocations of three impacts, from the first observed step of each on.
 fn allocations(shape: Shape, elastic: ElasticLaw, flow: FlowLaw, removal: Removal) -> [usize; 3] {
-    let material = Material {
-        hardness: 1.0,
-        shear_ratio: 0.25,
-        young: Some(100.0),
-        poisson: 0.3,
-        friction: 0.3,
-    };
     let inflation = match elastic {
         ElasticLaw::HertzNodes { node_radius, .. } => node_radius,
         _ => 0.0,
     };
-    let laws = SurfaceLaws { elastic, flow, removal, ..SurfaceLaws::of(material) };
+    let laws = SurfaceLaws { elastic, flow, removal, ..SurfaceLaws::of(soft()) };
     let strip = HexStrip { length: 8.0, width: 3.0, pitch: PITCH, rest_area: None };
     let mut surface = Surface::hex_strip(strip, laws).expect("a plate");
     let rotation = UnitQuaternion::from_scaled_axis(Vector3::new(0.3, 0.5, 0.2));

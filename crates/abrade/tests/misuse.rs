@@ -1,21 +1,17 @@
 //! What the public API answers to values and surfaces that it was not made for.
 
+mod soft;
+
 use abrade::{
     Adhesion, Body, Carried, Changes, Drive, DriveSolution, Driven, ElasticLaw, Encounter,
-    EncounterSettings, HertzConvention, HexStrip, Hold, Inertia, Ledger, Loads, Material,
-    PhysicsError, Placed, Pressed, Shape, State, Surface, SurfaceLaws, TriangleMesh, Until,
+    EncounterSettings, HertzConvention, HexStrip, Hold, Inertia, Ledger, Loads, PhysicsError,
+    Placed, Pressed, Shape, State, Surface, SurfaceLaws, TriangleMesh, Until,
 };
 use nalgebra::{Isometry3, Point3, Vector3};
+use soft::soft;
 
 fn laws(elastic: ElasticLaw) -> SurfaceLaws {
-    let material = Material {
-        hardness: 1.0,
-        shear_ratio: 0.25,
-        young: Some(100.0),
-        poisson: 0.3,
-        friction: 0.3,
-    };
-    SurfaceLaws { elastic, ..SurfaceLaws::of(material) }
+    SurfaceLaws { elastic, ..SurfaceLaws::of(soft()) }
 }
 
 const SPRINGS: ElasticLaw = ElasticLaw::Foundation { stiffness: Some(100.0) };

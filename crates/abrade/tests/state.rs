@@ -1,14 +1,17 @@
 //! Bytes of a running contact: going on from them gives the same bits as going on without, and no
 //! bytes whatever lead to a panic.
 
+mod soft;
+
 use abrade::{
     Advance, Ball, Body, Drive, DriveSolution, Driven, ElasticLaw, Encounter, EncounterSettings,
-    HertzConvention, HexStrip, Hull, Inertia, Loads, Material, PhysicsError, Piece, Placed,
-    Polyhedron, Shape, State, Surface, SurfaceLaws, TriangleMesh, Until,
+    HertzConvention, HexStrip, Hull, Inertia, Loads, PhysicsError, Piece, Placed, Polyhedron,
+    Shape, State, Surface, SurfaceLaws, TriangleMesh, Until,
 };
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use soft::soft;
 
 /// All that a run goes on from.
 #[derive(Clone, Serialize, Deserialize)]
@@ -71,14 +74,7 @@ const HERTZ: ElasticLaw =
 const SPRINGS: ElasticLaw = ElasticLaw::Foundation { stiffness: Some(100.0) };
 
 fn plate(elastic: ElasticLaw, restitution: f64) -> Surface {
-    let material = Material {
-        hardness: 1.0,
-        shear_ratio: 0.25,
-        young: Some(100.0),
-        poisson: 0.3,
-        friction: 0.3,
-    };
-    let laws = SurfaceLaws { elastic, restitution, ..SurfaceLaws::of(material) };
+    let laws = SurfaceLaws { elastic, restitution, ..SurfaceLaws::of(soft()) };
     let strip = HexStrip { length: 2.0, width: 1.6, pitch: 0.08, rest_area: None };
     Surface::hex_strip(strip, laws).expect("a plate")
 }

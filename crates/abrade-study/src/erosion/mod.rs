@@ -95,10 +95,25 @@ pub fn is_made(file: &StudyFile, beside: &Path, case: &Case, out: &Path) -> bool
     Store::new(file, beside, out).read(case).is_some()
 }
 
-/// True when `case` has begun in the results folder `out`, and is not made yet.
-pub fn is_begun(file: &StudyFile, beside: &Path, case: &Case, out: &Path) -> bool {
+/// How far a case is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Nothing of it is there.
+    None,
+    /// It was broken off, and goes on from where it was.
+    Begun,
+    /// It is there.
+    Made,
+}
+
+/// How far `case` is in the results folder `out`.
+pub fn stage(file: &StudyFile, beside: &Path, case: &Case, out: &Path) -> Stage {
     let store = Store::new(file, beside, out);
-    store.read(case).is_none() && store.begun(case).is_some()
+    match (store.read(case), store.begun(case)) {
+        (Some(_), _) => Stage::Made,
+        (None, Some(_)) => Stage::Begun,
+        (None, None) => Stage::None,
+    }
 }
 
 /// Number of cases in the results folder `out` that are of another study, or of this one before it, a
