@@ -66,6 +66,20 @@ impl Contact {
         }
     }
 
+    /// Adds what a step wore that has failed on its way: how long it touched, and how hard, is not
+    /// known.
+    pub fn book_failed(
+        open: &mut Option<Self>,
+        body: RigidBodyHandle,
+        worn: &[(SurfaceId, f64)],
+        events: &mut Vec<WearEvent>,
+    ) {
+        if worn.iter().any(|(_, volume)| *volume != 0.0) {
+            let booking = Booking { touches: true, ..Booking::default() };
+            Self::book(open, body, &booking, worn, events);
+        }
+    }
+
     /// Adds volumes that broke off as the open contact was ended [m3].
     pub fn add_broken(open: &mut Option<Self>, broken: &[(SurfaceId, f64)]) {
         let Some(contact) = open else { return };

@@ -70,13 +70,17 @@ impl WearWorld {
         let done = cut.encounter.advance(body, &mut placed, &loads, dt, until, &mut relay);
         let end = micro::carrier(&placed);
         let volume = self.surfaces[surface.0].owned().settle().displaced();
-        if let Ok(advance) = &done {
-            let (impulse, contact_time) = (frame * advance.impulse, advance.contact_time);
-            let booking = Booking { impulse, contact_time, touches: cut.encounter.in_contact() };
-            let worn = [(surface, volume)];
-            Contact::book(&mut cut.contact, handle, &booking, &worn, &mut self.events);
-            self.counters.add(advance);
-            tool.load.take(&frame, advance);
+        let worn = [(surface, volume)];
+        match &done {
+            Ok(advance) => {
+                let (impulse, contact_time) = (frame * advance.impulse, advance.contact_time);
+                let touches = cut.encounter.in_contact();
+                let booking = Booking { impulse, contact_time, touches };
+                Contact::book(&mut cut.contact, handle, &booking, &worn, &mut self.events);
+                self.counters.add(advance);
+                tool.load.take(&frame, advance);
+            }
+            Err(_) => Contact::book_failed(&mut cut.contact, handle, &worn, &mut self.events),
         }
         tool.cuts.push(cut);
         let time = done?.time;

@@ -64,7 +64,7 @@ impl Live {
         Carried { advance, worn, track, carrier: None }
     }
 
-    /// Carries `body` from its `start`.
+    /// Carries `body` from its `start`. Where it fails, what it has worn until then comes with the error.
     pub fn carry(
         &mut self,
         body: &mut Body,
@@ -72,13 +72,16 @@ impl Live {
         errand: &Errand<'_>,
         room: Room<'_>,
         observer: &mut dyn WearObserver,
-    ) -> Result<Carried, PhysicsError> {
+    ) -> Result<Carried, (PhysicsError, Volumes)> {
         let trace = Trace::new(start.state.position, errand.pull(body), errand.dt);
         let (body_of, frame, surfaces) = (start.body, start.frame, &start.surfaces);
         let mut relay = Relay { observer, body: body_of, frame, surfaces, began: 0.0, trace };
         let (advance, worn, carrier) = self.wear(body, errand, room, &mut relay);
         let track = relay.trace.finish().map(|extent| extent.grown(start.course.radius()));
-        Ok(Carried { advance: advance?, worn, track, carrier })
+        match advance {
+            Ok(advance) => Ok(Carried { advance, worn, track, carrier }),
+            Err(error) => Err((error, worn)),
+        }
     }
 
     /// Carries `body`, whose state is given in the frame of the first surface. Where changes are

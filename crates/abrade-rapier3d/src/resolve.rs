@@ -159,10 +159,14 @@ impl WearWorld {
         let room =
             Room { surfaces: &mut self.surfaces, lies: &self.lies, changed: &mut self.changed };
         let carried = match how {
-            How::Done(ahead) => live.take_over(*ahead, body, room),
-            How::Whole | How::Parts => live.carry(body, &start, &errand, room, observer)?,
+            How::Done(ahead) => Ok(live.take_over(*ahead, body, room)),
+            How::Whole | How::Parts => live.carry(body, &start, &errand, room, observer),
         };
         let end = body.state;
+        let carried = carried.map_err(|(error, worn)| {
+            tracked.book_failed(&worn, &mut self.events);
+            error
+        })?;
         self.land(end, &start, &carried)?;
         self.book_micro(tracked, &carried, &start.frame, until);
         Ok(())

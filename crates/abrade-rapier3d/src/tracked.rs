@@ -365,6 +365,11 @@ impl Tracked {
         Contact::book(&mut self.contact, self.handle, booking, worn, events);
     }
 
+    /// Books a step of its contact that has failed on its way.
+    pub fn book_failed(&mut self, worn: &[(SurfaceId, f64)], events: &mut Vec<WearEvent>) {
+        Contact::book_failed(&mut self.contact, self.handle, worn, events);
+    }
+
     /// Notes who resolves it now; a change raises an event.
     pub fn hand_to(&mut self, to: Resolver, reason: Option<Refusal>, events: &mut Vec<WearEvent>) {
         // That Micro begins is what an embedder expects.

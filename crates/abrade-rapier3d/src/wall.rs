@@ -184,14 +184,13 @@ impl WearWorld {
         let mut placed = micro::place(&mut self.surfaces, *surface, seat);
         let (loads, dt) = (Loads::default(), self.current.dt);
         let Against { striker, encounter, .. } = against;
-        let advance =
-            encounter.advance(striker, &mut placed, &loads, dt, Until::Duration, &mut ())?;
+        let done = encounter.advance(striker, &mut placed, &loads, dt, Until::Duration, &mut ());
         let end = micro::carrier(&placed);
         let touches = encounter.in_contact();
-        let volume = self.surfaces[surface.0].owned().settle().displaced();
-        let impulse = frame * -advance.impulse;
-        let booking = Booking { impulse, contact_time: advance.contact_time, touches };
-        tracked.book(&booking, &[(*surface, volume)], &mut self.events);
+        let worn = [(*surface, self.surfaces[surface.0].owned().settle().displaced())];
+        let advance = done.inspect_err(|_| tracked.book_failed(&worn, &mut self.events))?;
+        let (impulse, contact_time) = (frame * -advance.impulse, advance.contact_time);
+        tracked.book(&Booking { impulse, contact_time, touches }, &worn, &mut self.events);
         self.counters.add(&advance);
         if let Some(end) = end {
             shadow::check(&end, advance.time)?;

@@ -4,7 +4,7 @@
 //! Nothing is done before the one has gone a good part of a pitch, or bears more than it did; the load
 //! is then the mean since the nodes last gave way. Rapier's penetration never wears anything.
 
-use abrade::Advance;
+use abrade::{Advance, Ledger};
 use nalgebra::Isometry3;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::ContactPair;
@@ -18,9 +18,7 @@ use crate::event::Refusal;
 use crate::micro::Volumes;
 use crate::quasi_static::{self, SAMPLES};
 use crate::resolver::Resolver;
-use crate::surface::SurfaceId;
-#[cfg(feature = "serde-serialize")]
-use crate::surface::WornCollider;
+use crate::surface::{SurfaceId, WornCollider};
 use crate::view::WorldView;
 use crate::world::WearWorld;
 
@@ -86,9 +84,18 @@ impl Lying {
         self.body
     }
 
-    /// Takes the contact that is pressed, to be ended.
-    pub fn take_rub(&mut self) -> Option<Rub> {
-        self.rub.take()
+    /// Ends the contact that is pressed; what breaks off is a part of the contact that is open.
+    pub fn let_go(&mut self, surfaces: &mut [WornCollider], closed: &mut Ledger) {
+        let broken = self.end_rub(surfaces, closed);
+        Contact::add_broken(&mut self.contact, &broken);
+    }
+
+    /// Ends the contact that is pressed; returns the volumes that broke off, to be booked.
+    fn end_rub(&mut self, surfaces: &mut [WornCollider], closed: &mut Ledger) -> Volumes {
+        let Some(rub) = self.rub.take() else { return Volumes::new() };
+        let (ledger, broken) = rub.end(surfaces);
+        *closed += ledger;
+        broken
     }
 
     /// The contact that is open.
@@ -99,11 +106,6 @@ impl Lying {
     /// The contact that is pressed.
     pub fn rub(&self) -> Option<&Rub> {
         self.rub.as_ref()
-    }
-
-    /// Takes the contact with `surface` that is pressed, to be ended.
-    pub fn take_rub_on(&mut self, surface: SurfaceId) -> Option<Rub> {
-        self.rub.take_if(|rub| rub.is_on(surface))
     }
 }
 
@@ -150,7 +152,7 @@ impl WearWorld {
         let mut way = passage.way(&lying.place, blow);
         if std::mem::take(&mut lying.is_firm) && way * SAMPLES >= pitch {
             // What it went under no load is no way.
-            self.let_go(lying.rub.take());
+            worn.extend(lying.end_rub(&mut self.surfaces, &mut self.closed));
             (lying.place, lying.load) = (passage.at(0.0), 0.0);
             (lying.impulse, lying.time) = (0.0, 0.0);
             way = passage.way(&lying.place, blow);
@@ -167,7 +169,7 @@ impl WearWorld {
         lying.load = if moved { load } else { load.max(lying.load) };
         (lying.impulse, lying.time) = (0.0, 0.0);
         lying.place = passage.at(1.0);
-        *worn = self.rub(bearing, lying, &stretch, world);
+        worn.extend(self.rub(bearing, lying, &stretch, world));
     }
 
     /// Presses the two along a stretch.
@@ -179,8 +181,9 @@ impl WearWorld {
         world: &WorldView<'_>,
     ) -> Volumes {
         let Bearing { pair, surface, blow, body, is_first, reason, .. } = *bearing;
+        let mut worn = Volumes::new();
         if lying.rub.as_ref().is_some_and(|rub| !rub.holds(&lying.place)) {
-            self.let_go(lying.rub.take());
+            worn = lying.end_rub(&mut self.surfaces, &mut self.closed);
         }
         if lying.rub.is_none() {
             let (own, collider) = match is_first {
@@ -190,42 +193,36 @@ impl WearWorld {
             let two = Two::of(pair, own, blow, &self.surfaces, world);
             let (Some(two), Some(other)) = (two, world.colliders.get(collider)) else {
                 self.refuse(body, surface, Refusal::Shape { collider });
-                return Volumes::new();
+                return worn;
             };
             let settings = self.settings.encounter();
             match Rub::new(&two, other, stretch, blow, &self.surfaces, settings) {
                 Ok(rub) => lying.rub = Some(rub),
                 Err(error) => {
                     self.give_up(body, surface, error);
-                    return Volumes::new();
+                    return worn;
                 }
             }
         }
-        let Some(rub) = &mut lying.rub else { return Volumes::new() };
+        let Some(rub) = &mut lying.rub else { return worn };
         self.counters.quasi_static += 1;
         *self.reasons.entry((Resolver::QuasiStatic, reason.name().into())).or_default() += 1;
         let mut done = Advance::default();
-        let (worn, result) = rub.advance(stretch, &mut self.surfaces, &mut done);
+        let (flowed, result) = rub.advance(stretch, &mut self.surfaces, &mut done);
+        worn.extend(flowed);
         self.counters.steps += done.steps;
         self.counters.node_evaluations += done.node_evaluations;
         if let Err(error) = result {
-            self.let_go(lying.rub.take());
+            worn.extend(lying.end_rub(&mut self.surfaces, &mut self.closed));
             self.give_up(body, surface, error);
         }
         worn
     }
 
-    /// Ends a contact that was pressed.
-    pub(crate) fn let_go(&mut self, rub: Option<Rub>) {
-        if let Some(rub) = rub {
-            self.closed += rub.end(&mut self.surfaces);
-        }
-    }
-
     /// Ends a contact.
-    pub(crate) fn leave_lying(&mut self, lying: Lying) {
-        let Lying { body, rub, mut contact, .. } = lying;
-        self.let_go(rub);
+    pub(crate) fn leave_lying(&mut self, mut lying: Lying) {
+        lying.let_go(&mut self.surfaces, &mut self.closed);
+        let Lying { body, mut contact, .. } = lying;
         Contact::end(&mut contact, body, &mut self.events);
     }
 

@@ -179,8 +179,9 @@ impl WearWorld {
                 Bears::Blow => {}
                 Bears::Strikes => {
                     // What lies there would not know the nodes that the blow moves.
-                    let rub = bore.kept.as_mut().and_then(Lying::take_rub);
-                    self.let_go(rub);
+                    if let Some(kept) = &mut bore.kept {
+                        kept.let_go(&mut self.surfaces, &mut self.closed);
+                    }
                     self.strike(pair, &blow, reason, world);
                 }
                 Bears::Lies(impulse) => {
@@ -237,8 +238,9 @@ impl WearWorld {
     /// Breaks the contacts that are pressed against a surface; they begin anew where they are.
     pub(crate) fn break_rubs(&mut self, surface: SurfaceId) {
         let kept = self.bores.values_mut().filter_map(|bore| bore.kept.as_mut());
-        let rubs: Vec<_> = kept.filter_map(|kept| kept.take_rub_on(surface)).collect();
-        rubs.into_iter().for_each(|rub| self.let_go(Some(rub)));
+        for kept in kept.filter(|kept| kept.rub().is_some_and(|rub| rub.is_on(surface))) {
+            kept.let_go(&mut self.surfaces, &mut self.closed);
+        }
     }
 
     /// Energies of the contacts that are pressed [J].

@@ -138,12 +138,10 @@ impl Rub {
         micro::place(surfaces, self.stands, (Isometry3::identity(), None))
     }
 
-    /// Ends the contact: overhangs break off. Returns its ledger.
-    pub fn end(mut self, surfaces: &mut [WornCollider]) -> Ledger {
-        let mut placed = self.place(surfaces);
-        self.pressed.end(&mut placed);
-        placed[0].surface.settle();
-        *self.pressed.ledger()
+    /// Ends the contact: overhangs break off. Returns its ledger, and the volumes that broke off.
+    pub fn end(mut self, surfaces: &mut [WornCollider]) -> (Ledger, Volumes) {
+        let broken = micro::end(surfaces, &[self.stands], None, |placed| self.pressed.end(placed));
+        (*self.pressed.ledger(), broken)
     }
 
     pub fn ledger(&self) -> &Ledger {
