@@ -56,8 +56,8 @@ pub struct Asperities {
     pub travel: Option<f64>,
     /// Drag of the bases in shear waves through the base (default 0.5): ringing of the slabs dies out [-].
     pub base_drag: f64,
-    /// Step in times that a longitudinal wave takes through an element (default 0.5), below
-    /// [`crate::Numerics::limit`] [-].
+    /// Step in times that a longitudinal wave takes through an element (default 0.5), below the limit
+    /// of `Numerics` [-].
     pub courant: f64,
     /// Relaxation time of the links' dashpots in the same times (default 0.1) [-].
     pub viscosity: f64,

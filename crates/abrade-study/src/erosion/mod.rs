@@ -13,6 +13,7 @@ mod descriptors;
 mod file;
 mod impact;
 mod laws;
+mod method;
 mod page;
 mod quantities;
 mod sample;

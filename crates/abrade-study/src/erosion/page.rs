@@ -6,6 +6,7 @@ use abrade_report::sheet::{Part, Sheet};
 use super::charts::Drawn;
 use super::descriptors::LEVEL;
 use super::laws::{self, Prediction};
+use super::method;
 use super::quantities::STILL;
 use super::sensitivity::Sensitivity;
 use super::statistics::Estimate;
@@ -219,36 +220,7 @@ impl Erosion {
     }
 
     fn method(&self) -> Vec<String> {
-        let file = &self.file;
-        let target = &file.target;
-        let mut lines = vec![
-            format!(
-                "Flow {:?}, elastic {:?}, removal {:?}; hardness {} GPa, friction {}.",
-                target.flow,
-                target.elastic,
-                target.removal,
-                target.material.hardness / 1e9,
-                target.material.friction
-            ),
-            format!(
-                "Plate: {:?}. Each impact ends when the whole grain is out of the plate for the first time.",
-                file.plate
-            ),
-            format!(
-                "Samples: {:?}, seed {}, at least {}, at most {}, until the interval of the displaced volume is \
-                 {} % wide on either side; the same samples for every case.",
-                file.samples.sequence,
-                file.samples.seed,
-                file.samples.least,
-                file.samples.most,
-                digits(100.0 * file.samples.interval)
-            ),
-            format!(
-                "{} pitches in the edge of a cube of E0/H; accuracy {}.",
-                digits(file.resolution),
-                digits(file.accuracy)
-            ),
-        ];
+        let mut lines = method::lines(&self.file);
         for result in &self.cases {
             if let Some((missed, why)) = &result.missed {
                 let impacts = count(*missed, "impact", "impacts");
