@@ -92,6 +92,9 @@ fn check_tells_what_a_run_would_and_how_long_it_takes() {
     let strong = check("bodies.ron", "solid.adhesion=\"7 MPa\"");
     assert_eq!(strong.code, Some(0), "{}", strong.err);
     assert!(strong.out.contains("note     `solid.adhesion` is 7e6 Pa, above"), "{}", strong.out);
+    let soft = check("bodies.ron", "solid.hardening=\"50 MPa\"");
+    assert!(soft.out.contains("note     `solid.hardening` is 5e7 Pa"), "{}", soft.out);
+    assert!(!check("bodies.ron", "solid.hardening=\"100 MPa\"").out.contains("note"));
     let said = check("bodies.ron", "bodies.profile=Trapezoid(top: \"25 um\")");
     assert_eq!(said.code, Some(0), "{}", said.err);
     assert!(

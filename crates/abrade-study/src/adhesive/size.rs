@@ -6,6 +6,13 @@ use abrade_adhesive::{Asperities, Solid};
 /// Time that an element takes in a step (docs/adhesive.md, "Cost") [s].
 const ELEMENT_STEP: f64 = 23e-9;
 
+/// Hardening over Young's modulus down to which a collision makes less than a twentieth of the work of its drives out of
+/// nothing (docs/adhesive.md, "Where the work goes") [-].
+const LEAST_HARDENING: f64 = 0.1;
+
+/// What differs by less is the bound itself [-].
+const ROUNDING: f64 = 1e-12;
+
 /// Size of a collision.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Size {
@@ -34,15 +41,7 @@ impl SceneFile {
 
     /// What stands out, though it can be run.
     pub fn notes(&self) -> Vec<String> {
-        let (adhesion, strength) = (self.solid.adhesion, self.solid.tensile_strength());
-        let is_above = adhesion > strength * (1.0 + 1e-12);
-        let note = || {
-            format!(
-                "`solid.adhesion` is {adhesion:e} Pa, above the uniaxial tensile strength of a link, \
-                 {strength:.4e} Pa: faces in touch bear more than the link that held them"
-            )
-        };
-        is_above.then(note).into_iter().collect()
+        [strong(&self.solid), soft(&self.solid)].into_iter().flatten().collect()
     }
 }
 
@@ -51,4 +50,26 @@ impl MapFile {
     pub fn size(&self) -> Size {
         Size::of(&self.solid, &self.bodies)
     }
+}
+
+/// That adhesion is stronger than links.
+fn strong(solid: &Solid) -> Option<String> {
+    let (adhesion, strength) = (solid.adhesion, solid.tensile_strength());
+    (adhesion > strength * (1.0 + ROUNDING)).then(|| {
+        format!(
+            "`solid.adhesion` is {adhesion:e} Pa, above the uniaxial tensile strength of a link, {strength:.4e} Pa: \
+             faces in touch bear more than the link that held them"
+        )
+    })
+}
+
+/// That hardening is too low for averaged returns.
+fn soft(solid: &Solid) -> Option<String> {
+    let (hardening, least) = (solid.hardening, LEAST_HARDENING * solid.young);
+    (hardening < least * (1.0 - ROUNDING)).then(|| {
+        format!(
+            "`solid.hardening` is {hardening:e} Pa, below a tenth of `young`, {least:e} Pa: energy that nothing put in \
+             grows as large as the work of the drives, and the run may end early (docs/adhesive.md)"
+        )
+    })
 }
