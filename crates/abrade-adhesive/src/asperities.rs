@@ -43,7 +43,8 @@ pub struct Asperities {
     /// Overlap: the centres of the highest element that the lower body has and of the lowest of the upper
     /// pass each other d (1 - overlap) apart in height (default 0.3) [-].
     pub overlap: f64,
-    /// Distance along x of the corners that come together, in diameters (default 1.2) [-].
+    /// Distance along x of the corners that come together, in diameters (default 1.2): of the facets of
+    /// trapezoids, else of the outermost elements of the highest rows [-].
     pub gap: f64,
     /// Speed of each body: the lower to the right, the upper to the left (default 1 m/s) [m/s].
     #[serde(deserialize_with = "quantity::speed")]
@@ -202,15 +203,18 @@ impl Asperities {
         let mut assembly =
             Assembly { diameter: d, period: Some(period), elements: Vec::new(), links: Vec::new() };
         let mut parts = Vec::new();
-        // Half a turn about the point between the summits takes one body to the other.
-        let shift = match self.profile {
-            Profile::Trapezoid { top, .. } => top + self.gap * d,
-            Profile::Line { .. } => self.gap * d,
-        };
         let bodies = [0, 1].map(|draw| room.fill(&self.packing, draw));
         let [lower, upper] = [highest(&bodies[0]), highest(&bodies[1])];
-        let pivot =
-            [2.0 * self.profile.summit(period) + shift, lower + upper + d * (1.0 - self.overlap)];
+        // Half a turn about the point between the corners takes one body to the other.
+        let along = match self.profile {
+            Profile::Trapezoid { top, .. } => 2.0 * (0.5 * period) + (top + self.gap * d),
+            // An element's edge lies half a diameter beyond its centre.
+            Profile::Line { .. } => {
+                let [lower, upper] = [0, 1].map(|at| corner(&bodies[at], 0.5 * room.row_height()));
+                lower + upper + d * (1.0 + self.gap)
+            }
+        };
+        let pivot = [along, lower + upper + d * (1.0 - self.overlap)];
         for (is_upper, centres) in [false, true].into_iter().zip(bodies) {
             for [x, y] in centres {
                 let place = match y {
@@ -247,4 +251,11 @@ impl Asperities {
 /// turned or disturbed do not end where the outline does.
 fn highest(centres: &[[f64; 2]]) -> f64 {
     centres.iter().map(|centre| centre[1]).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Place along x of the last of the centres that are at most `row` below the highest [m].
+fn corner(centres: &[[f64; 2]], row: f64) -> f64 {
+    let least = highest(centres) - row;
+    let high = centres.iter().filter(|centre| centre[1] >= least);
+    high.map(|centre| centre[0]).fold(f64::NEG_INFINITY, f64::max)
 }

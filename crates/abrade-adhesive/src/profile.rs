@@ -127,16 +127,6 @@ impl Profile {
         }
     }
 
-    /// Where along x the asperities are highest: the middle of the facet, or the highest point [m].
-    pub(crate) fn summit(&self, period: f64) -> f64 {
-        match self {
-            Self::Trapezoid { .. } => 0.5 * period,
-            Self::Line { points } => {
-                points.iter().max_by(|a, b| a[1].total_cmp(&b[1])).map_or(0.0, |point| point[0])
-            }
-        }
-    }
-
     /// How far below the highest point the surface lies at `x`, of elements whose centres stay `inset` from
     /// the sides of a trapezoid [m].
     pub(crate) fn depth(&self, x: f64, period: f64, inset: f64) -> f64 {

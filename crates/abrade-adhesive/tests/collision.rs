@@ -57,8 +57,8 @@ fn the_upper_body_is_the_lower_turned_by_half_a_turn() {
 #[test]
 fn overlap_counts_from_the_outermost_elements_that_there_are() {
     let points = vec![[0.0, 0.0], [1e-3, 0.4e-3], [2.25e-3, 0.0]];
-    // Far enough along x for any of them: a peak's outermost elements lie beside its summit.
-    let usual = || Asperities { gap: 6.0, ..Asperities::default() };
+    // A peak whose corners counted from its summit would lie inside each other.
+    let usual = Asperities::default;
     for asperities in [
         usual(),
         Asperities { profile: Profile::Line { points }, ..usual() },
@@ -134,14 +134,13 @@ fn a_line_through_the_outermost_centres_is_the_trapezoid() {
         collision.parts().iter().filter(|part| part.place == Place::Asperity).count()
     };
     let (foot, middle, half) = (0.5e-3 / 3f64.sqrt(), 1.125e-3, 9.5 * 25e-6);
-    // The gap of a line counts from summit to summit, the middle of the facet being the first such point.
     let points = vec![
         [middle - half - foot, 0.0],
         [middle - half, 0.5e-3],
         [middle + half, 0.5e-3],
         [middle + half + foot, 0.0],
     ];
-    assert_eq!(of(Profile::Line { points }, 25.0), of(Profile::default(), 1.2));
+    assert_eq!(of(Profile::Line { points }, 1.2), of(Profile::default(), 1.2));
 }
 
 /// Fails for a facet whose elements are counted by rounding while its width cuts them: the wider one would

@@ -78,7 +78,9 @@ fn points(map: &Map) -> String {
     );
     for point in &map.points {
         let modes = point.modes.map(|count| count.to_string()).join(",");
-        let [ground, piece, worn] = point.means;
+        // Of no run there is no mean.
+        let mean = |value: f64| if point.runs > 0 { value.to_string() } else { String::new() };
+        let [ground, piece, worn] = point.means.map(mean);
         let _ = writeln!(
             text,
             "{},{},{},{},{},{},{},{modes},{ground},{piece},{worn}",
