@@ -44,10 +44,10 @@ pub fn load_scene_text(
     }
     let file = document.value.clone();
     check_name(&mut document, &file.name);
-    if check_bodies(&mut document, &file.solid, &file.bodies) {
-        if let Some(error) = file.bodies.overlap_at_start() {
-            document.out_of_range(&["bodies"], &error);
-        }
+    if check_bodies(&mut document, &file.solid, &file.bodies)
+        && let Some(error) = file.bodies.overlap_at_start()
+    {
+        document.out_of_range(&["bodies"], &error);
     }
     for (field, value, most) in [("frames", file.frames, 10_000.0), ("rows", file.rows, 1e7)] {
         if let Some(error) = ParameterError::within(field, value.into(), 1.0, most) {

@@ -6,8 +6,8 @@ use abrade_adhesive::{Asperities, Solid};
 /// Time that an element takes in a step (docs/adhesive.md, "Cost") [s].
 const ELEMENT_STEP: f64 = 23e-9;
 
-/// Hardening over Young's modulus down to which a collision makes less than a twentieth of the work of its drives out of
-/// nothing (docs/adhesive.md, "Where the work goes") [-].
+/// Hardening over Young's modulus down to which a collision makes about a twentieth of the work of its drives
+/// out of nothing, and not more (docs/adhesive.md, "Where the work goes") [-].
 const LEAST_HARDENING: f64 = 0.1;
 
 /// What differs by less is the bound itself [-].
