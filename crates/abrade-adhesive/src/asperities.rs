@@ -10,7 +10,7 @@ use crate::assembly::{Assembly, Element, Hold};
 use crate::error::AdhesiveError;
 use crate::numerics::Numerics;
 use crate::packing::{Packing, Room};
-use crate::profile::Profile;
+use crate::profile::{Profile, within};
 use crate::solid::Solid;
 
 /// Elements of a body nearer than this, in diameters, are linked: next neighbours, disordered or not.
@@ -40,10 +40,11 @@ pub struct Asperities {
     pub period: f64,
     /// How the elements lie (default `Regular`).
     pub packing: Packing,
-    /// Overlap: the highest centres of the lower and the lowest of the upper body pass each other at the
-    /// distance d (1 - overlap) (default 0.3) [-].
+    /// Overlap: the centres of the highest element that the lower body has and of the lowest of the upper
+    /// pass each other d (1 - overlap) apart in height (default 0.3) [-].
     pub overlap: f64,
-    /// Distance along x of the corners that come together, in diameters (default 1.2) [-].
+    /// Distance along x of the corners that come together, in diameters (default 1.2): of the facets of
+    /// trapezoids, else of the outermost elements of the highest rows [-].
     pub gap: f64,
     /// Speed of each body: the lower to the right, the upper to the left (default 1 m/s) [m/s].
     #[serde(deserialize_with = "quantity::speed")]
@@ -115,8 +116,8 @@ impl Asperities {
         let travel = self.travel.and_then(|travel| ParameterError::positive("travel", travel));
         found.extend(
             [
-                ParameterError::within("base", self.base, 2.0 * d, 1000.0 * d),
-                ParameterError::within("period", self.period, 4.0 * d, 1e5 * d),
+                within("base", self.base, 2.0 * d, 1000.0 * d),
+                within("period", self.period, 4.0 * d, 1e5 * d),
                 ParameterError::within("overlap", self.overlap, -1.0, 0.9),
                 ParameterError::within("gap", self.gap, -1e5, 1e5),
                 ParameterError::positive("speed", self.speed),
@@ -143,11 +144,6 @@ impl Asperities {
         let allowed = format!("such that a body has at most {PLACES:e} places, not {places:.1e}");
         let (field, value) = ("period", self.period);
         (places > PLACES).then_some(ParameterError { field, value, allowed })
-    }
-
-    /// A fault if the step is not stable in `solid`; both are checked.
-    pub fn unstable(&self, solid: &Solid) -> Option<ParameterError> {
-        self.numerics().unstable(solid, 1.0)
     }
 
     /// How time is cut.
@@ -187,23 +183,40 @@ impl Asperities {
     /// # Errors
     /// Elements of the two bodies overlap at the start.
     pub(crate) fn assemble(&self, solid: &Solid) -> Result<(Assembly, Vec<Part>), AdhesiveError> {
+        let drag = self.base_drag * solid.shear_speed() / self.base;
+        let (mut assembly, parts) = self.place(drag);
+        assembly.link_within(LINKED, |i, j| parts[i].is_upper == parts[j].is_upper);
+        for link in &mut assembly.links {
+            let is_rigid = link.ends.map(|end| parts[end as usize].place == Place::Rigid);
+            link.can_break = is_rigid != [true, true];
+        }
+        match self.bodies_overlap(&assembly, &parts) {
+            true => Err(AdhesiveError::Overlap { gap: self.gap }),
+            false => Ok((assembly, parts)),
+        }
+    }
+
+    /// The elements at the start, without links, and their parts; `drag` is that of the bases [1/s].
+    pub(crate) fn place(&self, drag: f64) -> (Assembly, Vec<Part>) {
         let room = self.room();
         let (d, period) = (self.diameter, room.period);
-        let drag = self.base_drag * solid.shear_speed() / self.base;
         let mut assembly =
             Assembly { diameter: d, period: Some(period), elements: Vec::new(), links: Vec::new() };
         let mut parts = Vec::new();
-        // Half a turn about the point between the summits takes one body to the other.
-        let shift = match self.profile {
-            Profile::Trapezoid { top, .. } => top + self.gap * d,
-            Profile::Line { .. } => self.gap * d,
+        let bodies = [0, 1].map(|draw| room.fill(&self.packing, draw));
+        let [lower, upper] = [highest(&bodies[0]), highest(&bodies[1])];
+        // Half a turn about the point between the corners takes one body to the other.
+        let along = match self.profile {
+            Profile::Trapezoid { top, .. } => 2.0 * (0.5 * period) + (top + self.gap * d),
+            // An element's edge lies half a diameter beyond its centre.
+            Profile::Line { .. } => {
+                let [lower, upper] = [0, 1].map(|at| corner(&bodies[at], 0.5 * room.row_height()));
+                lower + upper + d * (1.0 + self.gap)
+            }
         };
-        let pivot = [
-            2.0 * self.profile.summit(period) + shift,
-            2.0 * room.top() + d * (1.0 - self.overlap),
-        ];
-        for is_upper in [false, true] {
-            for [x, y] in room.fill(&self.packing, u64::from(is_upper)) {
+        let pivot = [along, lower + upper + d * (1.0 - self.overlap)];
+        for (is_upper, centres) in [false, true].into_iter().zip(bodies) {
+            for [x, y] in centres {
                 let place = match y {
                     y if y < 0.5 * room.row_height() => Place::Rigid,
                     y if y < room.base_top() => Place::Base,
@@ -220,18 +233,10 @@ impl Asperities {
                 parts.push(Part { is_upper, place });
             }
         }
-        assembly.link_within(LINKED, |i, j| parts[i].is_upper == parts[j].is_upper);
-        for link in &mut assembly.links {
-            let is_rigid = link.ends.map(|end| parts[end as usize].place == Place::Rigid);
-            link.can_break = is_rigid != [true, true];
-        }
-        match self.bodies_overlap(&assembly, &parts) {
-            true => Err(AdhesiveError::Overlap { gap: self.gap }),
-            false => Ok((assembly, parts)),
-        }
+        (assembly, parts)
     }
 
-    fn bodies_overlap(&self, assembly: &Assembly, parts: &[Part]) -> bool {
+    pub(crate) fn bodies_overlap(&self, assembly: &Assembly, parts: &[Part]) -> bool {
         let positions: Vec<[f64; 2]> = assembly.elements.iter().map(|e| e.position).collect();
         let grid = crate::grid::Grid::new(&positions, assembly.period, 0.95 * self.diameter);
         let mut overlap = false;
@@ -240,4 +245,17 @@ impl Asperities {
         }
         overlap
     }
+}
+
+/// Height of the highest centre. A row may hold none: a peak is narrower than an element, and rows that are
+/// turned or disturbed do not end where the outline does.
+fn highest(centres: &[[f64; 2]]) -> f64 {
+    centres.iter().map(|centre| centre[1]).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// Place along x of the last of the centres that are at most `row` below the highest [m].
+fn corner(centres: &[[f64; 2]], row: f64) -> f64 {
+    let least = highest(centres) - row;
+    let high = centres.iter().filter(|centre| centre[1] >= least);
+    high.map(|centre| centre[0]).fold(f64::NEG_INFINITY, f64::max)
 }

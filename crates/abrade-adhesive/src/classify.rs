@@ -24,6 +24,8 @@ const BESIDE: f64 = 0.2;
 /// What became of the asperities, in the paper's words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
+    /// They never touched, so that nothing is told of what they would have come to.
+    NoContact,
     /// They slipped past each other.
     Slipping,
     /// Their facing layers were ground into small pieces.
@@ -39,9 +41,10 @@ pub enum Mode {
 }
 
 impl Mode {
-    /// Its name, in the words of the paper.
+    /// Its name, in the words of the paper where it has one.
     pub fn name(self) -> &'static str {
         match self {
+            Self::NoContact => "no contact",
             Self::Slipping => "slipping",
             Self::Grinding => "grinding",
             Self::Cleavage => "cleavage",
@@ -72,8 +75,10 @@ pub struct Figures {
     pub failed: f64,
     /// Share of them whose ends lie apart at the end [-].
     pub parted: f64,
-    /// Whether links join the two bodies at the end.
+    /// Whether links lead from the rigid row of one body to that of the other at the end.
     pub are_joined: bool,
+    /// Whether any faces became a link or any link failed on the way: else the bodies did not touch.
+    pub have_touched: bool,
 }
 
 impl Figures {
@@ -89,6 +94,9 @@ impl Figures {
 
     /// The label.
     pub fn mode(&self) -> Mode {
+        if !self.have_touched {
+            return Mode::NoContact;
+        }
         let is_large = self.largest_piece >= BROKEN_AWAY;
         match (self.is_ground(), self.is_split()) {
             (false, false) => Mode::Slipping,
@@ -115,6 +123,7 @@ pub(crate) struct State<'a> {
     pub(crate) left: &'a [f64],
     /// Velocity along x at the end over that of the lower body [-].
     pub(crate) pace: &'a [f64],
+    pub(crate) have_touched: bool,
 }
 
 impl State<'_> {
@@ -154,6 +163,7 @@ pub(crate) fn figures(state: &State) -> Figures {
         failed: original().filter(|pair| pair.breaks > 0).count() as f64 / links,
         parted: original().filter(apart).count() as f64 / links,
         are_joined: are_joined(state),
+        have_touched: state.have_touched,
     }
 }
 

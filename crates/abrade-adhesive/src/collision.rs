@@ -129,6 +129,7 @@ impl Collision {
             facet: self.facet,
             left: &left,
             pace: &pace,
+            have_touched: self.simulation.welds() > 0 || self.simulation.failures() > 0,
         })
     }
 }

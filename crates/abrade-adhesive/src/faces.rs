@@ -25,6 +25,7 @@ pub(crate) struct Faces<'a> {
     pub(crate) linked: &'a mut [u32],
     pub(crate) response: &'a mut [f64],
     pub(crate) failures: &'a mut u64,
+    pub(crate) welds: &'a mut u64,
 }
 
 impl Faces<'_> {
@@ -121,6 +122,7 @@ impl Faces<'_> {
 
     /// Faces in touch are one: a link that bears `stress` [Pa].
     fn weld(&mut self, pair: &mut Change, stress: f64) {
+        *self.welds += 1;
         self.release(pair.ends, pair.line.stress[0] - stress);
         pair.face.state = LinkState::Linked;
         pair.line.live = 1.0;

@@ -38,6 +38,7 @@ mod returned;
 mod settle;
 mod simulation;
 mod solid;
+mod start;
 
 pub use asperities::{Asperities, Part, Place};
 pub use assembly::{Assembly, Element, Hold, Link};

@@ -12,6 +12,8 @@ const REACH: f64 = 0.4;
 const CUT: f64 = 1.0 + REACH;
 /// Room for motion until the next list, in diameters.
 pub(crate) const ROOM: f64 = 0.35;
+/// Faces that are no further apart than this, in diameters, are in the list at any time.
+pub(crate) const SURE: f64 = REACH - ROOM;
 
 /// The list's own memory.
 #[derive(Clone, Debug, PartialEq)]

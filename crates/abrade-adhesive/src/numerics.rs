@@ -52,6 +52,11 @@ impl Numerics {
         limit_of(1.0, viscosity, poisson)
     }
 
+    /// Length of a step in `solid` of elements of `diameter` [m] [s].
+    pub(crate) fn step(&self, solid: &Solid, diameter: f64) -> f64 {
+        self.courant * (diameter / solid.longitudinal_speed())
+    }
+
     /// A fault if the step is not stable in `solid`, where an element is linked `linkage` times as
     /// much as one of a lattice: the lengths of its links over six diameters.
     pub(crate) fn unstable(&self, solid: &Solid, linkage: f64) -> Option<ParameterError> {

@@ -41,7 +41,8 @@ impl Packing {
     pub fn check(&self) -> Vec<ParameterError> {
         let found = match self {
             Self::Regular => None,
-            Self::Rotated { angle } => ParameterError::within("angle", *angle, -10.0, 10.0),
+            Self::Rotated { angle } => ParameterError::within("angle", *angle, -10.0, 10.0)
+                .map(|error| ParameterError { allowed: "between -10 and 10 rad".into(), ..error }),
             // Beyond it the next but one neighbour may come nearer than the next.
             Self::Disordered { amplitude, .. } => {
                 ParameterError::within("amplitude", *amplitude, 0.0, 0.15)
@@ -68,7 +69,7 @@ impl Room<'_> {
         0.5 * 3f64.sqrt() * self.diameter
     }
 
-    /// Height of the highest centres [m].
+    /// Height of the highest row, which the outline may leave without an element [m].
     pub(crate) fn top(&self) -> f64 {
         (self.base_rows + self.asperity_rows - 1) as f64 * self.row_height()
     }

@@ -69,6 +69,8 @@ pub(crate) struct Pairs {
     pub(crate) faces: Vec<Face>,
     /// In how many steps links failed, of all pairs together, with those that are no longer listed.
     pub(crate) failures: u64,
+    /// How often faces became a link, of all pairs together.
+    pub(crate) welds: u64,
 }
 
 impl Pairs {
@@ -85,6 +87,7 @@ impl Pairs {
             blocks: Vec::new(),
             faces: Vec::new(),
             failures: 0,
+            welds: 0,
         };
         for link in runs.iter().flatten() {
             pairs.push(diameter, elements, link.ends, period);

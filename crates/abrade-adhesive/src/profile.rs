@@ -5,8 +5,14 @@ use abrade::quantity::{self, Quantity};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+/// What differs by less is the bound itself: `25 um` and 0.000025 are not the same number [-].
+const ROUNDING: f64 = 1e-9;
+
 /// Height of the highest asperities, in periods.
 const STEEP: f64 = 1e3;
+
+/// Least angle of the sides of a trapezoid [rad].
+const LEAST_SIDE: f64 = 0.05;
 
 /// Outline of the asperities of a body.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -65,17 +71,17 @@ impl Profile {
         let found = match self {
             Self::Trapezoid { top, height, side } => {
                 let base = top + 2.0 * height / side.tan();
-                let fits = base <= period;
+                let fits = base <= period * (1.0 + ROUNDING);
                 let wide = ParameterError {
                     field: "top",
                     value: *top,
                     allowed: format!("such that the foot, {base:e}, fits the period, {period:e}"),
                 };
                 vec![
-                    ParameterError::within("top", *top, diameter, period),
-                    ParameterError::within("height", *height, diameter, STEEP * period),
+                    within("top", *top, diameter, period),
+                    within("height", *height, diameter, STEEP * period),
                     // A facet of the side that an element does not fill tells nothing of the angle.
-                    ParameterError::within("side", *side, 0.05, std::f64::consts::FRAC_PI_2),
+                    within("side", *side, LEAST_SIDE, std::f64::consts::FRAC_PI_2).map(in_radians),
                     (!fits).then_some(wide),
                 ]
             }
@@ -84,7 +90,8 @@ impl Profile {
                     Some(ParameterError { field: "points", value, allowed: allowed.into() })
                 };
                 let rises = points.windows(2).all(|pair| pair[0][0] < pair[1][0]);
-                let inside = points.iter().all(|p| (0.0..=period).contains(&p[0]));
+                let end = period * (1.0 + ROUNDING);
+                let inside = points.iter().all(|p| (0.0..=end).contains(&p[0]));
                 let finite = points.iter().flatten().all(|x| x.is_finite());
                 let (count, height, most) = (points.len() as f64, self.height(), STEEP * period);
                 let steep = format!("such that the highest is at most {most:e} above the lowest");
@@ -120,16 +127,6 @@ impl Profile {
         }
     }
 
-    /// Where along x the asperities are highest: the middle of the facet, or the highest point [m].
-    pub(crate) fn summit(&self, period: f64) -> f64 {
-        match self {
-            Self::Trapezoid { .. } => 0.5 * period,
-            Self::Line { points } => {
-                points.iter().max_by(|a, b| a[1].total_cmp(&b[1])).map_or(0.0, |point| point[0])
-            }
-        }
-    }
-
     /// How far below the highest point the surface lies at `x`, of elements whose centres stay `inset` from
     /// the sides of a trapezoid [m].
     pub(crate) fn depth(&self, x: f64, period: f64, inset: f64) -> f64 {
@@ -145,6 +142,24 @@ impl Profile {
             }
         }
     }
+}
+
+/// An error unless `low <= value <= high`, but for rounding.
+pub(crate) fn within(
+    field: &'static str,
+    value: f64,
+    low: f64,
+    high: f64,
+) -> Option<ParameterError> {
+    let near = |bound: f64| (value - bound).abs() <= ROUNDING * bound.abs();
+    let is_bound = near(low) || near(high);
+    ParameterError::within(field, value, low, high).filter(|_| !is_bound)
+}
+
+/// The error of an angle, with the unit of its bounds.
+fn in_radians(error: ParameterError) -> ParameterError {
+    let allowed = format!("between {LEAST_SIDE} and 1.5708 rad (2.9 to 90 deg)");
+    ParameterError { allowed, ..error }
 }
 
 /// Height of the line at `x`; between its last and first point it goes over the period.
@@ -180,6 +195,10 @@ mod tests {
         };
         let (top, height, side) = (20.0, 20.0, 60f64.to_radians());
         assert!(of(Profile::Trapezoid { top, height, side }).is_empty());
+        // What a written bound comes to is the bound, but for rounding.
+        let least = 1.0 - 1e-15;
+        assert!(of(Profile::Trapezoid { top: least, height: least, side }).is_empty());
+        assert_eq!(of(Profile::Trapezoid { top: 0.999, height, side }), ["top"]);
         assert_eq!(of(Profile::Trapezoid { top, height, side: 0.6 }), ["top"]);
         assert_eq!(of(Profile::Trapezoid { top, height: 0.5, side }), ["height"]);
         assert_eq!(of(Profile::Line { points: vec![[1.0, 0.0], [0.5, 1.0]] }), ["points"]);

@@ -39,6 +39,7 @@ pub(crate) fn settle(
             linked: &mut elements.linked,
             response: &mut elements.response,
             failures: &mut pairs.failures,
+            welds: &mut pairs.welds,
         },
         pairs: &mut pairs.faces,
         released: 0.0,

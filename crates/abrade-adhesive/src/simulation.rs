@@ -66,8 +66,7 @@ impl Simulation {
     pub(crate) fn begin(solid: &Solid, assembly: &Assembly, numerics: Numerics) -> Self {
         let diameter = assembly.diameter;
         let constants = Constants::new(solid, diameter);
-        let wave_time = diameter / solid.longitudinal_speed();
-        let step = numerics.courant * wave_time;
+        let step = numerics.step(solid, diameter);
         let mut elements = Elements::new(assembly, &constants, step);
         let mut pairs = Pairs::new(assembly, &elements);
         let mut neighbours = Neighbours::new(&elements, &pairs, diameter, assembly.period);
@@ -120,7 +119,7 @@ impl Simulation {
         let room = STRIDE * self.constants.diameter;
         let stride = 2.0 * speed * self.step;
         if stride.is_nan() || stride > room {
-            let allowed = room / (2.0 * self.step);
+            let allowed = fastest(self.constants.diameter, self.step);
             return Err(AdhesiveError::TooFast { time: self.time(), element, speed, allowed });
         }
         self.refuse_spin()?;
@@ -138,7 +137,7 @@ impl Simulation {
     /// Refuses spins whose faces move as far as no element may: that is a step that is not stable.
     fn refuse_spin(&self) -> Result<(), AdhesiveError> {
         let radius = 0.5 * self.constants.diameter;
-        let allowed = STRIDE * self.constants.diameter / (2.0 * self.step);
+        let allowed = fastest(self.constants.diameter, self.step);
         let spins = &self.elements.spin[..self.elements.count];
         // A spin that is not a number is too fast, too.
         let is_fine = |spin: &f64| spin.abs() * radius <= allowed;
@@ -226,6 +225,11 @@ impl Simulation {
         self.pairs.failures
     }
 
+    /// How often faces that had parted or never been linked became a link so far.
+    pub fn welds(&self) -> u64 {
+        self.pairs.welds
+    }
+
     /// Where the energy is and where it went.
     pub fn ledger(&self) -> Ledger {
         let e = &self.elements;
@@ -255,4 +259,9 @@ impl Simulation {
             ..self.sums
         }
     }
+}
+
+/// The highest speed that a step of `step` [s] resolves for elements of `diameter` [m] [m/s].
+pub(crate) fn fastest(diameter: f64, step: f64) -> f64 {
+    STRIDE * diameter / (2.0 * step)
 }

@@ -34,7 +34,8 @@ pub struct Solid {
     #[serde(deserialize_with = "quantity::pressure")]
     #[schemars(with = "Quantity")]
     pub yield_stress: f64,
-    /// Slope H of linear hardening (default 0.5 GPa) [Pa].
+    /// Slope H of linear hardening (default 0.5 GPa); below a tenth of `young` averaged returns make energy
+    /// out of nothing, and without any, runs end early (docs/adhesive.md) [Pa].
     #[serde(deserialize_with = "quantity::pressure")]
     #[schemars(with = "Quantity")]
     pub hardening: f64,

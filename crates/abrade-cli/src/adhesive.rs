@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use abrade_report::quantity_text::count;
 use abrade_study::adhesive::{self, MapFile};
 
 use crate::arguments::{AdhesiveRunArguments, MapArguments, PartArguments};
@@ -18,6 +19,7 @@ pub(crate) fn run(arguments: &AdhesiveRunArguments) -> Result<(), Failure> {
     earlier::make_way_for_run(&folder, &file.name, arguments.out.is_some())?;
     output_folder::make(&folder)?;
     let stop = interrupt::flag();
+    file.notes().iter().for_each(|note| say::aside(&format!("note: {note}")));
     let mut bar = Bar::new(&stop);
     let ended = adhesive::run(&file, &folder, &mut bar);
     bar.clear();
@@ -92,7 +94,7 @@ impl Opened {
                 text,
                 "{:>5}  {:<5}  a {:<5} sigma_j {:>9.3e} Pa  sigma_0/sigma_j {:<6} gap {}",
                 case.number,
-                if self.has(&case) { "there" } else { "-" },
+                self.state(&case),
                 case.strength_ratio,
                 case.shear_strength,
                 case.adhesion_ratio,
@@ -107,6 +109,15 @@ impl Opened {
         let there = cases.iter().filter(|case| self.has(case)).count();
         let (all, place) = (cases.len(), say::place(&self.out));
         say::say(&format!("{} in {place}\n", say::of_cases(there, all)))
+    }
+
+    /// Whether `case` is there, in a word.
+    fn state(&self, case: &adhesive::Case) -> &'static str {
+        match self.has(case) {
+            true if adhesive::ended_early(&self.file, case, &self.out) => "early",
+            true => "there",
+            false => "-",
+        }
     }
 
     /// True where `case` is there.
@@ -128,9 +139,13 @@ impl Opened {
             "{}\ncases.csv, points.csv, boundary.csv and map.png are in {place}\n",
             map.table()
         ))?;
-        match map.missing() {
-            0 => Ok(()),
-            missing => Err(self.lacks(missing)),
+        match (map.missing(), map.fruitless()) {
+            (0, 0) => Ok(()),
+            (0, none) => Err(Failure::Run(anyhow::anyhow!(
+                "no case of {none} of {} came to its end; the same command tries them again",
+                count(map.points.len(), "point", "points")
+            ))),
+            (missing, _) => Err(self.lacks(missing)),
         }
     }
 

@@ -2,16 +2,13 @@
 
 use std::path::Path;
 
-use abrade_report::quantity_text::count;
-use abrade_study::adhesive;
 use anyhow::anyhow;
 
 use crate::arguments::CheckArguments;
 use crate::failure::Failure;
 use crate::kind::{self, Read};
 use crate::say::say;
-use crate::study::failure;
-use crate::{scene_text, study_text};
+use crate::{adhesive_text, scene_text, study_text};
 
 /// Checks every file; tells the sound ones on the output and the others where errors go.
 pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
@@ -20,13 +17,14 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
         return match kind::any(path, sets)? {
             Read::Scene(checked) => say(&scene_text::rows(&checked)),
             Read::Erosion(file) => say(&study_text::rows(&file)),
-            read => say(&line(path, &read)?),
+            Read::Asperities(file) => say(&adhesive_text::rows(&file)),
+            Read::Map(file) => say(&adhesive_text::rows_of_map(&file)),
         };
     }
     let mut bad = 0;
     for path in files {
-        match kind::any(path, sets).and_then(|read| line(path, &read)) {
-            Ok(line) => say(&line)?,
+        match kind::any(path, sets) {
+            Ok(read) => say(&line(path, &read))?,
             Err(failure) => {
                 failure.print();
                 bad += 1;
@@ -39,19 +37,12 @@ pub(crate) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     }
 }
 
-fn line(path: &Path, read: &Read) -> Result<String, Failure> {
+fn line(path: &Path, read: &Read) -> String {
     let (name, text) = match read {
         Read::Scene(checked) => (&checked.scene.name, scene_text::line(checked)),
         Read::Erosion(file) => (&file.name, study_text::line(file)),
-        Read::Asperities(file) => {
-            let elements = adhesive::element_count(file).map_err(failure)?;
-            let elements = count(elements, "element", "elements");
-            (&file.name, format!("two asperities, {elements}"))
-        }
-        Read::Map(file) => {
-            let cases = count(file.cases().len(), "case", "cases");
-            (&file.name, format!("map of two asperities, {cases}"))
-        }
+        Read::Asperities(file) => (&file.name, adhesive_text::line(file)),
+        Read::Map(file) => (&file.name, adhesive_text::line_of_map(file)),
     };
-    Ok(format!("{}: {name}: {text}\n", path.display()))
+    format!("{}: {name}: {text}\n", path.display())
 }

@@ -6,6 +6,7 @@
 #![warn(missing_docs)]
 
 mod adhesive;
+mod adhesive_text;
 mod arguments;
 mod check;
 mod clump;

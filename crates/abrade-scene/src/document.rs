@@ -64,6 +64,12 @@ impl<T: DeserializeOwned> Document<T> {
 }
 
 impl<T> Document<T> {
+    /// Whether the file, or a `--set`, gives the value at `path`.
+    pub fn gives(&self, path: &[&str]) -> bool {
+        let path = ScenePath::of(path.iter().copied());
+        self.tree.find(&self.patched.text, &path.0).depth == path.0.len()
+    }
+
     /// Notes that the value at `path`, or the nearest one that is written on the way to it, is
     /// wrong, and what was allowed there.
     pub fn refuse(&mut self, path: &[&str], message: impl Into<String>, label: impl Into<String>) {

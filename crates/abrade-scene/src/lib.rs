@@ -47,7 +47,7 @@ pub use document::{Document, FileKind, file_text, name_fault};
 pub use grain::{Fit, GrainError, GrainSize, MadeGrain};
 pub use led_path::LedPath;
 pub use load::{load, load_text};
-pub use number_rows::number_pairs;
+pub use number_rows::{NumberPair, number_pairs};
 pub use problem::{Mark, Problem, SceneError, Source, suggestion};
 pub use reference::{Field, fields, fields_of, schema};
 pub use run::{Outcome, Precision, Progress, RunError, RunOptions, run};

@@ -46,24 +46,43 @@ pub(crate) fn read(folder: &Path, what: &'static str, file: &str) -> Result<Rows
     parse(&path.display().to_string(), &String::from_utf8_lossy(&bytes))
 }
 
+/// Two numbers of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NumberPair {
+    /// The numbers.
+    pub numbers: [f64; 2],
+    /// Line and file, in words.
+    pub place: String,
+}
+
 /// Pairs of numbers from `file`, which holds `what` and lies in `folder`: for files of other rooms.
 ///
 /// # Errors
-/// What is wrong with it, in words: it cannot be read, or a line is not two finite numbers.
+/// What is wrong with it, in words, with line and file: it cannot be read, or a line is not two finite numbers.
 pub fn number_pairs(
     folder: &Path,
     what: &'static str,
     file: &str,
-) -> Result<Vec<[f64; 2]>, String> {
-    pairs(&read(folder, what, file).map_err(|trouble| trouble.to_string())?)
+) -> Result<Vec<NumberPair>, String> {
+    let rows = read(folder, what, file).map_err(|trouble| match &trouble {
+        RowsTrouble::NotANumber { line, .. } => format!("{}: {trouble}", line.place()),
+        RowsTrouble::Unreadable { .. } => trouble.to_string(),
+    });
+    pairs(&rows?)
 }
 
-fn pairs(found: &Rows) -> Result<Vec<[f64; 2]>, String> {
+impl Line {
+    fn place(&self) -> String {
+        format!("line {} of `{}`", self.number, self.file)
+    }
+}
+
+fn pairs(found: &Rows) -> Result<Vec<NumberPair>, String> {
     let pair = |(row, line): (&Vec<f64>, &Line)| match row[..] {
-        [x, y] => Ok([x, y]),
+        [x, y] => Ok(NumberPair { numbers: [x, y], place: line.place() }),
         _ => {
             let numbers = count(row.len(), "number", "numbers");
-            Err(format!("line {} of `{}` has {numbers}, not 2", line.number, line.file))
+            Err(format!("{} has {numbers}, not 2", line.place()))
         }
     };
     found.rows.iter().zip(&found.lines).map(pair).collect()
@@ -101,7 +120,11 @@ mod tests {
     #[test]
     fn pairs_are_two_numbers_a_line() {
         let of = |text: &str| pairs(&parse("line.csv", text).expect("rows"));
-        assert_eq!(of("0, 1\n2 3"), Ok(vec![[0.0, 1.0], [2.0, 3.0]]));
+        let pair = |numbers: [f64; 2], line: usize| {
+            let place = format!("line {line} of `line.csv`");
+            NumberPair { numbers, place }
+        };
+        assert_eq!(of("0, 1\n\n2 3"), Ok(vec![pair([0.0, 1.0], 1), pair([2.0, 3.0], 3)]));
         assert_eq!(of("0 1\n2"), Err("line 2 of `line.csv` has 1 number, not 2".into()));
     }
 

@@ -9,8 +9,12 @@ use crate::spans::{self, Kind, Node, ScenePath, Segment};
 
 /// What an enum field that a scene leaves out stands for, so that a field of its default variant
 /// can be set.
-const DEFAULT_VARIANTS: [(&str, &str); 3] =
-    [("flow", "CapozzaHanley"), ("elastic", "Foundation"), ("solution", "Dynamic")];
+const DEFAULT_VARIANTS: [(&str, &str); 4] = [
+    ("flow", "CapozzaHanley"),
+    ("elastic", "Foundation"),
+    ("solution", "Dynamic"),
+    ("profile", "Trapezoid"),
+];
 
 /// Applies an argument `PATH=VALUE` to the text whose tree is `tree`.
 pub(crate) fn apply(patched: &mut Patched, tree: &Node, argument: &str) -> Result<(), Problem> {
@@ -199,6 +203,11 @@ mod tests {
         changed("surfaces.plate.elastic.stiffness=1", "Rigid", "Rigid(stiffness: 1)");
         changed("bodies.cube=(x: 1)", "1)) }", "1)), \"cube\": (x: 1) }");
         changed("run.accuracy=1e-4", "1)) },", "1)) }, run: (accuracy: 1e-4),");
+        changed(
+            "run.profile.side=45 deg",
+            "1)) },",
+            "1)) }, run: (profile: Trapezoid(side: \"45 deg\")),",
+        );
         changed(
             "surfaces.plate.cap.elastic.stiffness=1",
             "Projected",

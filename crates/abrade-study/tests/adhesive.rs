@@ -13,6 +13,15 @@ impl Progress for Patient {
     }
 }
 
+/// Breaks off at once.
+struct Hasty;
+
+impl Progress for Hasty {
+    fn advance(&mut self, _: f64, _: Option<f64>) -> bool {
+        false
+    }
+}
+
 fn write(folder: &Path, text: &str) -> PathBuf {
     let path = folder.join("file.ron");
     std::fs::write(&path, text).unwrap();
@@ -69,4 +78,86 @@ fn a_map_that_is_extended_keeps_its_cases() {
     let runs =
         adhesive::result(&first, folder.path()).points.iter().map(|p| p.runs).collect::<Vec<_>>();
     assert_eq!(runs, [1, 1]);
+}
+
+/// Fails for a run that was broken off and has a label all the same.
+#[test]
+fn a_run_that_is_broken_off_has_no_mode() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = r#"(version: 1, name: "short", frames: 1, rows: 1)"#;
+    let scene = adhesive::load_scene(&write(folder.path(), scene), &[]).unwrap();
+    assert!(adhesive::run(&scene, folder.path(), &mut Hasty).unwrap().interrupted);
+    let text = std::fs::read_to_string(folder.path().join("summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
+    for label in ["mode", "is_ground", "is_split"] {
+        assert!(summary.get(label).is_some_and(serde_json::Value::is_null), "{label}: {text}");
+    }
+}
+
+/// Fails for bodies that never met and are told to have slipped, and for a note where they met.
+#[test]
+fn bodies_that_do_not_touch_are_told_so() {
+    let folder = tempfile::tempdir().unwrap();
+    for (overlap, mode) in [(-1.0, "no contact"), (0.3, "slipping")] {
+        let scene = format!(
+            r#"(version: 1, name: "x", bodies: (travel: "60 um", overlap: {overlap}), frames: 1, rows: 1)"#
+        );
+        let scene = adhesive::load_scene(&write(folder.path(), &scene), &[]).unwrap();
+        let summary = adhesive::run(&scene, folder.path(), &mut Patient).unwrap().summary;
+        let (json, text) = (summary.to_json(), summary.text());
+        assert_eq!(json["mode"], mode, "{text}");
+        assert_eq!(json["note"].is_string(), mode == "no contact");
+        assert_eq!(text.contains("note: the bodies did not touch"), mode == "no contact", "{text}");
+    }
+}
+
+/// Fails for cases that end early without a word, for good, or as if they had slipped: bodies so fast that a step
+/// does not resolve what their contact makes of them.
+#[test]
+fn cases_that_end_early_are_told_and_tried_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let map = r#"(version: 1, name: "fast", bodies: (speed: 140.0), adhesion_ratios: [0.0], gaps: [1.2, 1.5])"#;
+    let map = adhesive::load_map(&write(folder.path(), map), &[]).unwrap();
+    let make = || {
+        adhesive::make(&map, &map.cases(), folder.path(), &mut Patient).unwrap();
+        adhesive::result(&map, folder.path())
+    };
+    let made = make();
+    assert_eq!((made.missing(), made.fruitless(), made.points[0].failed), (0, 1, 2));
+    assert_eq!(made.points[0].modes.iter().sum::<usize>(), 0);
+    let told = made.table();
+    assert!(told.contains("2 of 2 cases ended early; the first, case 0: at "), "{told}");
+    let first = std::fs::read_dir(folder.path().join("cases")).unwrap().next().unwrap();
+    let first = first.unwrap().path();
+    let before = std::fs::read_to_string(&first).unwrap();
+    std::fs::write(&first, before.replace("went at", "once went at")).unwrap();
+    make();
+    assert_eq!(std::fs::read_to_string(&first).unwrap(), before);
+}
+
+/// Fails for an outline that goes over the period in part, backwards, in millimetres, or with a step at its end.
+#[test]
+fn outlines_that_do_not_go_over_the_period_are_refused_by_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let load = |outline: &str| {
+        std::fs::write(folder.path().join("line.csv"), outline).unwrap();
+        let scene = r#"(version: 1, name: "x", outline: "line.csv")"#;
+        adhesive::load_scene(&write(folder.path(), scene), &[]).map_err(|error| {
+            error.problems.into_iter().map(|problem| problem.message).collect::<Vec<_>>().join("; ")
+        })
+    };
+    assert!(load("0 0\n1e-3 4e-4 # the peak\n2.25e-3 0\n").is_ok());
+    for (outline, line, why) in [
+        ("0 0\n1 0.4\n2.25 0\n", 3, "must at the period"),
+        ("0 0\n1e-3 4e-4\n", 2, "must at the period"),
+        ("1e-3 4e-4\n2.25e-3 0\n", 1, "must at 0"),
+        ("0 0\n1e-3 4e-4\n5e-4 1e-4\n2.25e-3 0\n", 3, "must rise"),
+        ("0 0\n1e-3 4e-4\n2.25e-3 2e-4\n", 3, "does not close"),
+        ("x,height\n0 0\n2.25e-3 0\n", 1, "not a finite number"),
+    ] {
+        let told = load(outline).unwrap_err();
+        assert!(told.contains(&format!("line {line} of `")), "{outline}: {told}");
+        assert!(told.contains("line.csv`") && told.contains(why), "{outline}: {told}");
+        assert!(told.contains("in metres"), "{outline}: {told}");
+    }
 }

@@ -58,11 +58,65 @@ fn faults_are_shown_where_they_stand() {
         (["map", "map.ron", "--set", "shear_strengths=[0.0]"], "must be finite and above zero"),
         (["map", "map.ron", "--set", "gaps=[1.2,1.2]"], "`gaps.1` is there twice"),
         (["map", "map.ron", "--case", "17"], "there is no case 17"),
+        (["run", "bodies.ron", "--set", "bodies.speed=200.0"], "must be at most 143."),
+        (["run", "bodies.ron", "--set", "solid.adhesion_range=\"5 um\""], "at most 0.05 diameters"),
+        (["run", "bodies.ron", "--set", "bodies.profile.side=3.0"], "1.5708 rad (2.9 to 90 deg)"),
+        (["map", "map.ron", "--set", "gaps=[1.2,-4.0]"], "`gaps.1` is out of range"),
+        (["map", "map.ron", "--set", "bodies.gap=1.3"], "give `gaps` alone"),
+        (["map", "map.ron", "--set", "solid.adhesion=1e6"], "give `adhesion_ratios` alone"),
+        (["map", "map.ron", "--set", "solid.strength_ratio=1.3"], "give `strength_ratios` alone"),
     ] {
         let said = folder.abrade(&[&["adhesive"], &arguments[..]].concat());
         assert_eq!(said.code, Some(2), "{arguments:?}: {}", said.err);
         assert!(said.err.contains(told), "{arguments:?}: {}", said.err);
     }
+}
+
+/// Fails for a check that lets through what a run refuses at its start, and for one that says nothing of adhesion
+/// above the strength, of the bound of a value as bad, or of how long it takes.
+#[test]
+fn check_tells_what_a_run_would_and_how_long_it_takes() {
+    let folder = Folder::new("adhesive_check");
+    folder.write("bodies.ron", SCENE);
+    folder.write("map.ron", MAP);
+    let check = |file: &str, set: &str| folder.abrade(&["check", file, "--set", set]);
+    for (file, set, told) in [
+        ("bodies.ron", "bodies.speed=200.0", "must be at most 143."),
+        ("bodies.ron", "bodies.gap=-4.0", "the bodies overlap"),
+        ("map.ron", "gaps=[1.2,-4.0]", "the bodies overlap"),
+    ] {
+        let said = check(file, set);
+        assert_eq!(said.code, Some(2), "{set}: {}", said.out);
+        assert!(said.err.contains(told), "{set}: {}", said.err);
+    }
+    let strong = check("bodies.ron", "solid.adhesion=\"7 MPa\"");
+    assert_eq!(strong.code, Some(0), "{}", strong.err);
+    assert!(strong.out.contains("note     `solid.adhesion` is 7e6 Pa, above"), "{}", strong.out);
+    let soft = check("bodies.ron", "solid.hardening=\"50 MPa\"");
+    assert!(soft.out.contains("note     `solid.hardening` is 5e7 Pa"), "{}", soft.out);
+    assert!(!check("bodies.ron", "solid.hardening=\"100 MPa\"").out.contains("note"));
+    let said = check("bodies.ron", "bodies.profile=Trapezoid(top: \"25 um\")");
+    assert_eq!(said.code, Some(0), "{}", said.err);
+    assert!(
+        said.out.contains("\nsize     ") && said.out.contains(" steps\ntime     about "),
+        "{}",
+        said.out
+    );
+    let said = check("bodies.ron", "bodies.profile.side=45 deg");
+    assert_eq!(said.code, Some(0), "{}", said.err);
+}
+
+/// Fails for a map without a result that ends as if it had one.
+#[test]
+fn a_map_whose_cases_all_end_early_is_an_error() {
+    let folder = Folder::new("adhesive_failed");
+    folder.write("map.ron", MAP);
+    let arguments = ["adhesive", "map", "map.ron", "--out", "out", "--set", "bodies.speed=140.0"];
+    let arguments = [&arguments[..], &["--set", "bodies.travel=\"1 mm\""]].concat();
+    let said = folder.abrade(&arguments);
+    assert_eq!(said.code, Some(1), "{}", said.out);
+    assert!(said.out.contains("6 of 6 cases ended early; the first, case 0: at "), "{}", said.out);
+    assert!(said.err.contains("no case of 3 of 3 points came to its end"), "{}", said.err);
 }
 
 /// Fails for a folder that abrade has written itself and calls damaged.
@@ -89,8 +143,8 @@ fn check_takes_files_of_every_kind() {
     assert_eq!(
         said.out,
         "scene.ron: Oblique impact of a ball: scene, 1 surface, 18480 nodes, 1 body, a second or less
-bodies.ron: brittle: two asperities, 3586 elements
-map.ron: small map: map of two asperities, 6 cases
+bodies.ron: brittle: two asperities, 3586 elements, 1969 steps, about 162 ms of a core
+map.ron: small map: map of two asperities, 6 cases, 3586 elements, 1313 steps in each, about 650 ms of a core
 study.ron: two grains: erosion study, 2 cases, 8 impacts at most
 "
     );
@@ -99,7 +153,9 @@ study.ron: two grains: erosion study, 2 cases, 8 impacts at most
     let bad = ["overlap.ron", "frayed.ron", "bodies.ron", "none.ron"];
     let said = folder.abrade(&[&["check"], &bad[..]].concat());
     assert_eq!(said.code, Some(2), "{}", said.err);
-    assert_eq!(said.out, "bodies.ron: brittle: two asperities, 3586 elements\n");
+    let sound =
+        "bodies.ron: brittle: two asperities, 3586 elements, 1969 steps, about 162 ms of a core\n";
+    assert_eq!(said.out, sound);
     let mut told = String::new();
     for command in ["overlap.ron", "frayed.ron", "none.ron"] {
         told += &folder.abrade(&["adhesive", "run", command]).err;
@@ -119,7 +175,7 @@ fn a_file_that_could_be_of_two_kinds_is_read_once_and_of_the_sound_one() {
     let mut shell = std::process::Command::new("sh");
     let said = shell.current_dir(&folder.0).args(["-c", &check]).output().unwrap();
     let (out, err) = (String::from_utf8_lossy(&said.stdout), String::from_utf8_lossy(&said.stderr));
-    assert!(out.starts_with("/dev/stdin: x: two asperities, "), "{out}{err}");
+    assert!(out.starts_with("scene    x: two asperities\n"), "{out}{err}");
 }
 
 /// Fails for a file of another kind that is answered with the words that are strange here, and for a fault in
@@ -155,7 +211,8 @@ fn a_map_is_made_whole_or_in_parts_on_any_number_of_threads() {
     let read = |place: &str| std::fs::read(folder.0.join(place).join("cases.csv")).unwrap();
     let said = folder.abrade(&["adhesive", "map", "map.ron", "--jobs", "2", "--out", "whole"]);
     assert_eq!(said.code, Some(0), "{}", said.err);
-    assert!(said.out.contains("2 slipping"), "{}", said.out);
+    // 40 um are 1.6 d: from a gap of 1.5 d the corners do not come to touch.
+    assert!(said.out.contains("1 slipping, 1 no contact\n"), "{}", said.out);
     let early = folder.abrade(&["adhesive", "map", "map.ron", "--out", "part0", "--merge"]);
     assert_eq!(early.code, Some(1), "{}", early.out);
     for part in ["0/2", "1/2"] {

@@ -15,7 +15,7 @@ pub struct Regimes<'a> {
     pub caption: &'a str,
     /// What x and y are.
     pub axes: [&'a str; 2],
-    /// Names of the classes, at most eight.
+    /// Names of the classes, at most eight; the legend tells those that occur.
     pub classes: &'a [&'a str],
     /// The cells.
     pub cells: Vec<Cell>,
@@ -39,8 +39,8 @@ pub struct Boundary {
     pub name: String,
     /// Its points.
     pub points: Vec<[f64; 2]>,
-    /// Lower and upper end of the interval at each point; empty without intervals.
-    pub intervals: Vec<[f64; 2]>,
+    /// Lower and upper end of the interval at each point, none where it is open; empty without intervals.
+    pub intervals: Vec<[Option<f64>; 2]>,
     /// Whether it is dashed.
     pub is_dashed: bool,
 }
@@ -58,6 +58,8 @@ const COLOURS: [Rgb; 8] = [
     [90, 90, 90],
     [150, 120, 60],
 ];
+/// Half the width of what stands at the end of a bar: a line across, or the head of an arrow where it is open.
+const CAP: f64 = 7.0;
 const LINES: [Rgb; 3] = [[20, 20, 20], [120, 40, 160], [0, 90, 160]];
 
 impl Regimes<'_> {
@@ -154,11 +156,18 @@ impl Regimes<'_> {
         Ok(())
     }
 
+    /// Whether a run of any cell ended in `class`.
+    fn occurs(&self, class: usize) -> bool {
+        self.cells.iter().any(|cell| cell.counts.get(class).is_some_and(|count| *count > 0))
+    }
+
     fn legend(&self, canvas: &mut Canvas) -> Result<(), ReportError> {
         let look = Text { align: Align::Left, ..Text::default() };
         let left = PLOT.right + 30.0;
         let mut down = PLOT.top + 20.0;
-        for (class, name) in self.classes.iter().enumerate() {
+        for (class, name) in
+            self.classes.iter().enumerate().filter(|(class, _)| self.occurs(*class))
+        {
             let [top, bottom] = [down - 11.0, down + 11.0];
             let corners = [[left, top], [left + 30.0, top], [left + 30.0, bottom], [left, bottom]];
             canvas.fill(&corners, COLOURS[class % COLOURS.len()])?;
@@ -200,17 +209,49 @@ fn draw_boundary(
             canvas.line(&[along(from), along(from + length)], colour, 3.0)?;
         }
     }
-    for (at, [low, high]) in boundary.points.iter().zip(&boundary.intervals) {
-        let bar = [*low, *high].map(|y| place(ends, [at[0], y]));
+    for (at, interval) in boundary.points.iter().zip(&boundary.intervals) {
+        let bar = reach(*interval, ends[1]).map(|y| place(ends, [at[0], y]));
         canvas.line(&bar, colour, 2.0)?;
+        for (([x, y], end), inwards) in bar.into_iter().zip(interval).zip([-1.0, 1.0]) {
+            match end {
+                Some(_) => canvas.line(&[[x - CAP, y], [x + CAP, y]], colour, 2.0)?,
+                None => {
+                    let foot = y + 2.0 * CAP * inwards;
+                    canvas.fill(&[[x, y], [x - CAP, foot], [x + CAP, foot]], colour)?;
+                }
+            }
+        }
         canvas.dot(place(ends, *at), 6.0, colour)?;
     }
     Ok(())
 }
 
+/// From where to where the bar of an interval goes: to the edges of the map where it is open.
+fn reach([from, to]: [Option<f64>; 2], (low, high): (f64, f64)) -> [f64; 2] {
+    [from.unwrap_or(low), to.unwrap_or(high)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Fails for an open interval whose bar ends like a closed one, where the values do.
+    #[test]
+    fn the_bar_of_an_open_interval_goes_to_the_edge() {
+        assert_eq!(reach([Some(0.2), Some(1.1)], (-0.1, 1.3)), [0.2, 1.1]);
+        assert_eq!(reach([None, Some(1.1)], (-0.1, 1.3)), [-0.1, 1.1]);
+        assert_eq!(reach([Some(0.2), None], (-0.1, 1.3)), [0.2, 1.3]);
+    }
+
+    /// Fails for a legend that tells of what no run came to.
+    #[test]
+    fn the_legend_tells_the_classes_that_occur() {
+        let cells = vec![Cell { at: [0.0; 2], counts: vec![0, 2] }, Cell::default()];
+        let classes = &["one", "two", "three"];
+        let map =
+            Regimes { title: "", caption: "", axes: [""; 2], classes, cells, boundaries: vec![] };
+        assert_eq!([0, 1, 2].map(|class| map.occurs(class)), [false, true, false]);
+    }
 
     /// Fails for a map of one cell, or of none, and for cells that overlap where values are uneven.
     #[test]

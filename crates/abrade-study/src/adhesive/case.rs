@@ -82,7 +82,8 @@ impl MapFile {
 /// What a case came to: figures, or why it ended early.
 pub(crate) type Made = Result<Figures, String>;
 
-/// Makes those of `cases` that are not in the results folder `out` yet, on as many threads as rayon has.
+/// Makes those of `cases` that are not in the results folder `out` yet or ended early there, on as many threads
+/// as rayon has.
 ///
 /// # Errors
 /// The user broke it off, or a file cannot be written.
@@ -98,7 +99,8 @@ pub fn make(
         path: folder.clone(),
         source,
     })?;
-    let todo: Vec<&Case> = cases.iter().filter(|case| read(file, case, out).is_none()).collect();
+    let is_due = |case: &&Case| !matches!(read(file, case, out), Some(Ok(_)));
+    let todo: Vec<&Case> = cases.iter().filter(is_due).collect();
     let there = cases.len() - todo.len();
     let (stop, over) = (AtomicBool::new(false), AtomicUsize::new(there));
     let (tell, heard) = mpsc::channel::<Done>();
@@ -167,6 +169,11 @@ pub fn is_made(file: &MapFile, case: &Case, out: &Path) -> bool {
     read(file, case, out).is_some()
 }
 
+/// True when `case` ended early in the results folder `out`.
+pub fn ended_early(file: &MapFile, case: &Case, out: &Path) -> bool {
+    matches!(read(file, case, out), Some(Err(_)))
+}
+
 /// Number of cases in the results folder `out` that are of another map, or of this one before it or the
 /// program's version changed. They stay there.
 pub fn others(file: &MapFile, out: &Path) -> usize {
@@ -174,7 +181,8 @@ pub fn others(file: &MapFile, out: &Path) -> usize {
     case_files::others(out, &own)
 }
 
-/// Takes the cases that are in the results folder `from` over into `out`.
+/// Takes the cases that are in the results folder `from` over into `out`; one that ended early takes the place of
+/// none that came to its end.
 ///
 /// # Errors
 /// It holds no case of this map, or the file system refuses.
@@ -183,7 +191,9 @@ pub fn gather(file: &MapFile, from: &Path, out: &Path) -> Result<(), StudyError>
     for case in file.cases() {
         if let Some(made) = read(file, &case, from) {
             found += 1;
-            write(file, &case, &made, out)?;
+            if made.is_ok() || !matches!(read(file, &case, out), Some(Ok(_))) {
+                write(file, &case, &made, out)?;
+            }
         }
     }
     match found {
@@ -229,6 +239,7 @@ pub(crate) fn read(file: &MapFile, case: &Case, out: &Path) -> Option<Made> {
 
 fn read_figures(value: &Value) -> Option<Figures> {
     let number = |name: &str| value[name].as_f64();
+    let failed = number("failed")?;
     Some(Figures {
         ground: number("ground")?,
         largest_piece: number("largest_piece")?,
@@ -236,8 +247,10 @@ fn read_figures(value: &Value) -> Option<Figures> {
         worn: number("worn")?,
         transferred: number("transferred")?,
         debris: number("debris")?,
-        failed: number("failed")?,
+        failed,
         parted: number("parted")?,
         are_joined: value["are_joined"].as_bool()?,
+        // Only bodies that touch make a link fail.
+        have_touched: failed > 0.0 || value["have_touched"].as_bool()?,
     })
 }

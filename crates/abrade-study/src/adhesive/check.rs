@@ -4,9 +4,10 @@ use std::path::Path;
 
 use abrade::ParameterError;
 use abrade_adhesive::{Asperities, Profile, Solid};
-use abrade_scene::{Document, FileKind, SceneError, file_text, name_fault, number_pairs};
+use abrade_scene::{Document, FileKind, SceneError, file_text, name_fault};
 
 use super::file::{MapFile, SceneFile, VERSION};
+use super::outline;
 
 /// Most cases of a map: one takes seconds.
 const CASES: usize = 1_000_000;
@@ -32,14 +33,22 @@ pub fn load_scene_text(
     let mut document = Document::<SceneFile>::read(&path.display().to_string(), text, sets, kind)?;
     if let Some(outline) = document.value.outline.clone() {
         let folder = path.parent().unwrap_or(Path::new("."));
-        match number_pairs(folder, "outline", &outline) {
+        if document.gives(&["bodies", "profile"]) {
+            let label = "leave out one of them";
+            document.refuse(&["outline"], "`outline` and `bodies.profile` are both given", label);
+        }
+        match outline::read(folder, &outline, &document.value.bodies) {
             Ok(points) => document.value.bodies.profile = Profile::Line { points },
             Err(reason) => document.refuse(&["outline"], reason, ""),
         }
     }
     let file = document.value.clone();
     check_name(&mut document, &file.name);
-    check_bodies(&mut document, &file.solid, &file.bodies);
+    if check_bodies(&mut document, &file.solid, &file.bodies)
+        && let Some(error) = file.bodies.overlap_at_start()
+    {
+        document.out_of_range(&["bodies"], &error);
+    }
     for (field, value, most) in [("frames", file.frames, 10_000.0), ("rows", file.rows, 1e7)] {
         if let Some(error) = ParameterError::within(field, value.into(), 1.0, most) {
             document.out_of_range(&[], &error);
@@ -64,6 +73,8 @@ pub fn load_map_text(path: &Path, text: String, sets: &[String]) -> Result<MapFi
     let kind = FileKind { name: "map", version: VERSION };
     let mut document = Document::<MapFile>::read(&path.display().to_string(), text, sets, kind)?;
     let solid = document.value.solid;
+    let given =
+        [&document.value.strength_ratios, &document.value.shear_strengths].map(|v| !v.is_empty());
     if document.value.strength_ratios.is_empty() {
         document.value.strength_ratios = vec![solid.strength_ratio];
     }
@@ -72,7 +83,8 @@ pub fn load_map_text(path: &Path, text: String, sets: &[String]) -> Result<MapFi
     }
     let file = document.value.clone();
     check_name(&mut document, &file.name);
-    check_bodies(&mut document, &solid, &file.bodies);
+    check_varied(&mut document, given);
+    let is_sound = check_bodies(&mut document, &solid, &file.bodies);
     for (field, values, [low, high]) in [
         ("strength_ratios", &file.strength_ratios, [1.0, 1000.0]),
         ("shear_strengths", &file.shear_strengths, [f64::MIN_POSITIVE, f64::MAX]),
@@ -88,7 +100,38 @@ pub fn load_map_text(path: &Path, text: String, sets: &[String]) -> Result<MapFi
         document.refuse(&["gaps"], message, format!("at most {CASES} are allowed"));
     }
     check_cases(&mut document, &file, count);
+    if is_sound {
+        check_gaps(&mut document, &file);
+    }
     document.finish()
+}
+
+/// Refuses values that a map would take from its lists all the same; `given` tells whether those of ratios and
+/// strengths are.
+fn check_varied(document: &mut Document<MapFile>, [ratios, strengths]: [bool; 2]) {
+    for (path, list, counts) in [
+        (["solid", "adhesion"], "adhesion_ratios", true),
+        (["bodies", "gap"], "gaps", true),
+        (["solid", "strength_ratio"], "strength_ratios", ratios),
+        (["solid", "shear_strength"], "shear_strengths", strengths),
+    ] {
+        if counts && document.gives(&path) {
+            let message = format!("`{}` counts for nothing in this map", path.join("."));
+            document.refuse(&path, message, format!("give `{list}` alone"));
+        }
+    }
+}
+
+/// Refuses gaps from which the bodies would overlap.
+fn check_gaps(document: &mut Document<MapFile>, file: &MapFile) {
+    for (at, &gap) in file.gaps.iter().enumerate() {
+        let bodies = Asperities { gap, ..file.bodies.clone() };
+        if let Some(error) = bodies.overlap_at_start() {
+            let message = format!("`gaps.{at}` is out of range");
+            let label = format!("must be {}", error.allowed);
+            document.refuse(&["gaps", &at.to_string()], message, label);
+        }
+    }
 }
 
 /// Refuses a map whose points all lie above the tensile strength.
@@ -127,7 +170,8 @@ fn check_name<T>(document: &mut Document<T>, name: &str) {
     }
 }
 
-fn check_bodies<T>(document: &mut Document<T>, solid: &Solid, bodies: &Asperities) {
+/// Refuses what is wrong with solid and bodies; true where nothing is.
+fn check_bodies<T>(document: &mut Document<T>, solid: &Solid, bodies: &Asperities) -> bool {
     let faults = [solid.check(), bodies.check()];
     for error in &faults[0] {
         document.out_of_range(&["solid"], error);
@@ -140,7 +184,20 @@ fn check_bodies<T>(document: &mut Document<T>, solid: &Solid, bodies: &Asperitie
         };
         document.out_of_range(path, error);
     }
-    if let (true, Some(error)) = (faults.concat().is_empty(), bodies.unstable(solid)) {
-        document.out_of_range(&["bodies"], &error);
+    if !faults.concat().is_empty() {
+        return false;
     }
+    let together = [
+        ("bodies", bodies.unstable(solid)),
+        ("bodies", bodies.too_fast(solid)),
+        ("solid", bodies.beyond_reach(solid)),
+    ];
+    let mut is_sound = true;
+    for (place, error) in together {
+        if let Some(error) = error {
+            document.out_of_range(&[place], &error);
+            is_sound = false;
+        }
+    }
+    is_sound
 }

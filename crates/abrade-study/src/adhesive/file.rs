@@ -22,8 +22,8 @@ pub struct SceneFile {
     /// The bodies and their way past each other (default: the paper's, as far as it tells them).
     #[serde(default)]
     pub bodies: Asperities,
-    /// File of places along x and heights [m] that `bodies.profile` is taken from, a line each, beside the
-    /// scene.
+    /// File of places along x, rising from 0 to the period, and heights [m], a line each, beside the scene:
+    /// the outline in the place of `bodies.profile`. It closes: both ends are of one height.
     #[serde(default)]
     pub outline: Option<String>,
     /// Instants that ParaView files show beside the end (default 20); at most one a step [-].
@@ -42,10 +42,12 @@ pub struct MapFile {
     pub version: u32,
     /// What the map is called: the title of its results.
     pub name: String,
-    /// What both bodies consist of (default: the paper's reference values).
+    /// What both bodies consist of (default: the paper's reference values); without `adhesion`, which
+    /// `adhesion_ratios` give, and without what another list gives.
     #[serde(default)]
     pub solid: Solid,
-    /// The bodies and their way past each other (default: the paper's, as far as it tells them).
+    /// The bodies and their way past each other (default: the paper's, as far as it tells them); without
+    /// `gap`, which `gaps` give.
     #[serde(default)]
     pub bodies: Asperities,
     /// Ratios of strength a (default: that of the solid) [-].

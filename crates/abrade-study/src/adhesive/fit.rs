@@ -19,6 +19,13 @@ pub struct Boundary {
     pub is_bounded: [bool; 2],
 }
 
+impl Boundary {
+    /// The ends of the interval; none where the runs do not bound it.
+    pub(crate) fn ends(&self) -> [Option<f64>; 2] {
+        [0, 1].map(|side| self.is_bounded[side].then_some(self.interval[side]))
+    }
+}
+
 /// Runs at one value: how many, and how many of them came out so.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Share {
@@ -94,7 +101,9 @@ mod tests {
     #[test]
     fn an_interval_that_goes_beyond_the_values_is_not_bounded() {
         let rows = [(0.0, 0), (0.4, 0), (0.8, 2), (1.1, 2), (1.35, 4), (1.6, 3)];
-        assert_eq!(boundary(&shares(&rows, 5)).unwrap().is_bounded, [true, false]);
+        let found = boundary(&shares(&rows, 5)).unwrap();
+        assert_eq!(found.is_bounded, [true, false]);
+        assert_eq!(found.ends(), [Some(found.interval[0]), None]);
     }
 
     /// Fails for an interval that does not shrink with the number of runs: a curve of width 0.2 about 1.

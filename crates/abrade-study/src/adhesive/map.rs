@@ -4,19 +4,23 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use abrade_adhesive::{Figures, Mode};
+use abrade_report::quantity_text::count;
 
 use super::case::{self, Case, Made};
 use super::file::MapFile;
 use super::fit::{self, Boundary, Share};
 
+/// Number of modes.
+const KINDS: usize = 7;
 /// The modes in the order of the map's colours.
-pub(crate) const MODES: [Mode; 6] = [
+pub(crate) const MODES: [Mode; KINDS] = [
     Mode::Slipping,
     Mode::Cleavage,
     Mode::Grinding,
     Mode::Breakaway,
     Mode::GrindingAndCleavage,
     Mode::GrindingAndBreakaway,
+    Mode::NoContact,
 ];
 
 /// The cases that are there.
@@ -44,7 +48,7 @@ pub struct Point {
     /// Cases that ended early.
     pub failed: usize,
     /// Of those that did not: in each mode, ground, split.
-    pub modes: [usize; 6],
+    pub modes: [usize; KINDS],
     /// Cases whose asperities were ground.
     pub ground: usize,
     /// Cases in which a large piece came off.
@@ -80,6 +84,12 @@ pub fn result(file: &MapFile, out: &Path) -> Map {
 }
 
 impl Point {
+    /// Cases that came to their end and whose bodies touched.
+    fn touched(&self) -> usize {
+        let apart = MODES.iter().zip(self.modes).filter(|(mode, _)| **mode == Mode::NoContact);
+        self.runs - apart.map(|(_, count)| count).sum::<usize>()
+    }
+
     fn count(&mut self, own: &[&Made]) {
         let figures: Vec<&Figures> = own.iter().filter_map(|made| made.as_ref().ok()).collect();
         self.runs = figures.len();
@@ -109,6 +119,29 @@ impl Map {
         self.file.cases().len() - self.cases.len()
     }
 
+    /// Number of points of which every case that is there ended early.
+    pub fn fruitless(&self) -> usize {
+        self.points.iter().filter(|point| point.runs == 0).count()
+    }
+
+    /// How many cases ended early, and why the first of them did; nothing where none did.
+    fn failures(&self) -> String {
+        let early: Vec<(&Case, &String)> = self
+            .cases
+            .iter()
+            .filter_map(|(case, made)| made.as_ref().err().map(|cause| (case, cause)))
+            .collect();
+        match early.first() {
+            Some((case, cause)) => format!(
+                "{} of {} ended early; the first, case {}: {cause}\n",
+                early.len(),
+                count(self.cases.len(), "case", "cases"),
+                case.number
+            ),
+            None => String::new(),
+        }
+    }
+
     /// Where grinding begins along sigma_0 / sigma_j, for each a and sigma_j; none where that is not
     /// between the points.
     pub fn boundaries(&self) -> Vec<(f64, f64, Option<Boundary>)> {
@@ -116,8 +149,11 @@ impl Map {
         for &ratio in &self.file.strength_ratios {
             for &strength in &self.file.shear_strengths {
                 let is_own = |p: &&Point| p.strength_ratio == ratio && p.shear_strength == strength;
-                let share =
-                    |p: &Point| Share { value: p.adhesion_ratio, runs: p.runs, hits: p.ground };
+                let share = |p: &Point| Share {
+                    value: p.adhesion_ratio,
+                    runs: p.touched(),
+                    hits: p.ground,
+                };
                 let shares: Vec<Share> = self.points.iter().filter(is_own).map(share).collect();
                 found.push((ratio, strength, fit::boundary(&shares)));
             }
@@ -164,6 +200,6 @@ impl Map {
                 }
             };
         }
-        text
+        text + &self.failures()
     }
 }

@@ -10,18 +10,21 @@ mod file;
 mod fit;
 mod frames;
 mod map;
+mod outline;
 mod run;
 mod series;
+mod size;
 mod summary;
 mod write;
 
-pub use case::{Case, gather, is_made, make, others};
+pub use case::{Case, ended_early, gather, is_made, make, others};
 pub use check::{load_map, load_map_text, load_scene, load_scene_text};
 pub use file::{MapFile, SceneFile, VERSION};
 pub use fit::Boundary;
 pub use frames::PICTURE;
 pub use map::{Map, Point, result};
-pub use run::{Ended, element_count, run};
+pub use run::{Ended, run};
+pub use size::Size;
 pub use write::write;
 
 /// The JSON schema of a scene of two asperities.

@@ -28,14 +28,6 @@ pub struct Ended {
     pub interrupted: bool,
 }
 
-/// Elements of the scene's bodies at the start.
-///
-/// # Errors
-/// The bodies overlap.
-pub fn element_count(file: &SceneFile) -> Result<usize, StudyError> {
-    Ok(Collision::new(&file.solid, &file.bodies)?.simulation().count())
-}
-
 /// Runs the scene and writes its files into `folder`, in the place of what an earlier run left there; those of a run that ends early as well.
 ///
 /// # Errors

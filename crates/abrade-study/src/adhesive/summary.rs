@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use abrade_adhesive::{AdhesiveError, Collision, Figures, Ledger};
+use abrade_adhesive::{AdhesiveError, Collision, Figures, Ledger, Mode};
 use abrade_report::{ReportError, atomic};
 use serde_json::{Value, json};
 
@@ -48,6 +48,18 @@ impl Summary {
         }
     }
 
+    /// The label; none before the end of the travel.
+    fn mode(&self) -> Option<Mode> {
+        (self.share >= 1.0).then(|| self.figures.mode())
+    }
+
+    /// What a reader of the label must know.
+    fn note(&self) -> Option<&'static str> {
+        (self.mode() == Some(Mode::NoContact)).then_some(
+            "the bodies did not touch: `overlap`, `gap`, `travel` or the outline keeps them apart",
+        )
+    }
+
     /// As JSON, a unit in every name.
     pub fn to_json(&self) -> Value {
         let (figures, ledger) = (&self.figures, &self.ledger);
@@ -55,9 +67,10 @@ impl Summary {
             "name": self.name,
             "complete": self.share >= 1.0,
             "failure": self.failure,
-            "mode": figures.mode().name(),
-            "is_ground": figures.is_ground(),
-            "is_split": figures.is_split(),
+            "mode": self.mode().map(Mode::name),
+            "is_ground": self.mode().map(|_| figures.is_ground()),
+            "is_split": self.mode().map(|_| figures.is_split()),
+            "note": self.note(),
             "figures": figures_json(figures),
             "elements": self.elements,
             "steps": self.steps,
@@ -80,13 +93,14 @@ impl Summary {
         let figures = &self.figures;
         let failure =
             self.failure.as_ref().map_or(String::new(), |why| format!("ended early: {why}\n"));
+        let note = self.note().map_or(String::new(), |note| format!("  note: {note}\n"));
         format!(
             "{failure}{}: {}\n  ground {:.3}, largest piece {:.3} of an asperity, {:.2} small pieces per facet element, \
              moved {:.1} % of the asperities\n  \
              transferred {:.3}, debris {:.3}, links failed {:.3}, joined: {}\n  \
-             mean force on the lower body {:.0} N/m along, {:.0} N/m across; {} elements, {} steps\n",
+             mean force on the lower body {:.0} N/m along, {:.0} N/m across; {} elements, {} steps\n{note}",
             self.name,
-            if self.share >= 1.0 { figures.mode().name() } else { "broken off, no mode yet" },
+            self.mode().map_or("broken off, no mode yet", Mode::name),
             figures.ground,
             figures.largest_piece,
             figures.small_pieces,
@@ -120,5 +134,6 @@ pub(crate) fn figures_json(figures: &Figures) -> Value {
         "failed": figures.failed,
         "parted": figures.parted,
         "are_joined": figures.are_joined,
+        "have_touched": figures.have_touched,
     })
 }

@@ -3,13 +3,15 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use abrade_adhesive::Mode;
 use abrade_report::quantity_text::count;
 use abrade_report::{Cell, Regimes, atomic};
 
-use super::fit::Boundary;
 use super::map::{MODES, Map};
 use crate::error::StudyError;
 
+/// What the legend calls cases that ended early.
+const EARLY: &str = "ended early";
 /// A* of the paper's Fig. 7, where a = 1: sigma_0* = A* sigma_j.
 const SLOPE: f64 = 1.2;
 /// beta_1 of the paper's Eq. 4, of which it says that it is of the order of unity.
@@ -67,7 +69,8 @@ fn cases(map: &Map) -> String {
 }
 
 fn points(map: &Map) -> String {
-    let names: Vec<String> = MODES.iter().map(|mode| mode.name().replace(" + ", "_and_")).collect();
+    let column = |mode: &Mode| mode.name().replace(" + ", "_and_").replace(' ', "_");
+    let names: Vec<String> = MODES.iter().map(column).collect();
     let mut text = format!(
         "strength_ratio,shear_strength_Pa,adhesion_ratio,runs,failed,ground,split,{},mean_ground,\
          mean_largest_piece,mean_worn\n",
@@ -75,7 +78,9 @@ fn points(map: &Map) -> String {
     );
     for point in &map.points {
         let modes = point.modes.map(|count| count.to_string()).join(",");
-        let [ground, piece, worn] = point.means;
+        // Of no run there is no mean.
+        let mean = |value: f64| if point.runs > 0 { value.to_string() } else { String::new() };
+        let [ground, piece, worn] = point.means.map(mean);
         let _ = writeln!(
             text,
             "{},{},{},{},{},{},{},{modes},{ground},{piece},{worn}",
@@ -95,7 +100,11 @@ fn boundaries(map: &Map) -> String {
     let mut text = "strength_ratio,shear_strength_Pa,boundary,low95,high95,paper_eq4\n".to_owned();
     for (ratio, strength, boundary) in map.boundaries() {
         let found = match boundary {
-            Some(Boundary { at, interval: [low, high], .. }) => format!("{at},{low},{high}"),
+            Some(boundary) => {
+                let [low, high] =
+                    boundary.ends().map(|end| end.map_or(String::new(), |end| end.to_string()));
+                format!("{},{low},{high}", boundary.at)
+            }
             None => ",,".to_owned(),
         };
         let paper = paper(ratio, map.file.solid.poisson);
@@ -110,7 +119,7 @@ fn picture(map: &Map) -> Result<Vec<u8>, StudyError> {
     let place = |ratio: f64, strength: f64| if over_strength { strength / 1e6 } else { ratio };
     let cells = map.points.iter().map(|point| Cell {
         at: [place(point.strength_ratio, point.shear_strength), point.adhesion_ratio],
-        counts: point.modes.to_vec(),
+        counts: [&point.modes[..], &[point.failed]].concat(),
     });
     let mut fitted = abrade_report::Boundary {
         name: "half of the runs grind, 95 %".into(),
@@ -126,10 +135,10 @@ fn picture(map: &Map) -> Result<Vec<u8>, StudyError> {
         eq4.points.push([x, paper(ratio, map.file.solid.poisson)]);
         if let Some(boundary) = boundary {
             fitted.points.push([x, boundary.at]);
-            fitted.intervals.push(boundary.interval);
+            fitted.intervals.push(boundary.ends());
         }
     }
-    let names = MODES.map(|mode| mode.name());
+    let names: Vec<&str> = MODES.iter().map(|mode| mode.name()).chain([EARLY]).collect();
     let caption = format!(
         "overlap {}, {} per point; a cell is cut by the shares of its runs",
         map.file.bodies.overlap,
@@ -145,4 +154,52 @@ fn picture(map: &Map) -> Result<Vec<u8>, StudyError> {
         boundaries: vec![fitted, eq4],
     };
     Ok(regimes.to_png()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::map::Point;
+    use super::*;
+
+    /// Fails for an open end of an interval that is written as if it were one: the runs do not bound it above.
+    #[test]
+    fn an_open_end_is_an_empty_cell() {
+        let text =
+            r#"(version: 1, name: "open", adhesion_ratios: [0.0, 0.4, 0.8, 1.1, 1.35, 1.6])"#;
+        let file = super::super::load_map_text(Path::new("map.ron"), text.into(), &[]).unwrap();
+        let ground = [0, 0, 2, 2, 4, 3];
+        let point = |(&adhesion_ratio, ground)| Point {
+            strength_ratio: 1.0,
+            shear_strength: 4.5e6,
+            adhesion_ratio,
+            runs: 5,
+            ground,
+            ..Point::default()
+        };
+        let points = file.adhesion_ratios.iter().zip(ground).map(point).collect();
+        let map = Map { file, cases: Vec::new(), points };
+        let text = boundaries(&map);
+        let cells: Vec<&str> = text.lines().nth(1).unwrap().split(',').collect();
+        assert!(!cells[3].is_empty() && cells[4].is_empty(), "{text}");
+    }
+
+    /// Fails for runs without contact that count as runs which did not grind, or have no column.
+    #[test]
+    fn runs_without_contact_have_a_column_of_their_own() {
+        assert!(MODES.contains(&Mode::NoContact));
+        let text = r#"(version: 1, name: "apart", adhesion_ratios: [0.0, 1.0])"#;
+        let file = super::super::load_map_text(Path::new("map.ron"), text.into(), &[]).unwrap();
+        let mut modes = [0; MODES.len()];
+        modes[MODES.len() - 1] = 4;
+        let base = Point { strength_ratio: 1.0, shear_strength: 4.5e6, ..Point::default() };
+        let points = vec![
+            Point { runs: 5, ground: 1, modes, ..base },
+            Point { adhesion_ratio: 1.0, runs: 5, ground: 5, ..base },
+        ];
+        let map = Map { file, cases: Vec::new(), points };
+        let head = super::points(&map).lines().next().unwrap().to_owned();
+        assert!(head.contains(",grinding_and_breakaway,no_contact,mean_ground"), "{head}");
+        // The one run that touched ground as well: there is no boundary.
+        assert_eq!(map.boundaries()[0].2, None);
+    }
 }
