@@ -13,6 +13,9 @@ use crate::packing::{Packing, Room};
 use crate::profile::{Profile, within};
 use crate::solid::Solid;
 
+/// Centres of one summit are at most this far apart along x, in diameters.
+const BESIDE: f64 = 1.5;
+
 /// Elements of a body nearer than this, in diameters, are linked: next neighbours, disordered or not.
 const LINKED: f64 = 1.3;
 
@@ -210,7 +213,8 @@ impl Asperities {
             Profile::Trapezoid { top, .. } => 2.0 * (0.5 * period) + (top + self.gap * d),
             // An element's edge lies half a diameter beyond its centre.
             Profile::Line { .. } => {
-                let [lower, upper] = [0, 1].map(|at| corner(&bodies[at], 0.5 * room.row_height()));
+                let corner = |at: usize| corner(&bodies[at], &room);
+                let [lower, upper] = [corner(0), corner(1)];
                 lower + upper + d * (1.0 + self.gap)
             }
         };
@@ -253,9 +257,22 @@ fn highest(centres: &[[f64; 2]]) -> f64 {
     centres.iter().map(|centre| centre[1]).fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// Place along x of the last of the centres that are at most `row` below the highest [m].
-fn corner(centres: &[[f64; 2]], row: f64) -> f64 {
-    let least = highest(centres) - row;
-    let high = centres.iter().filter(|centre| centre[1] >= least);
-    high.map(|centre| centre[0]).fold(f64::NEG_INFINITY, f64::max)
+/// Place along x of the end of the last summit [m], which may lie over the period: of the centres that are at
+/// most half a row below the highest, the one with no next to it.
+fn corner(centres: &[[f64; 2]], room: &Room<'_>) -> f64 {
+    let least = highest(centres) - 0.5 * room.row_height();
+    let high: Vec<f64> =
+        centres.iter().filter(|centre| centre[1] >= least).map(|centre| centre[0]).collect();
+    let last = high.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let mut end = last;
+    // A summit as long as the period has no end.
+    for _ in 0..high.len() {
+        let ahead = high.iter().map(|x| (x - end).rem_euclid(room.period));
+        let next = ahead.filter(|way| *way > 0.5 * room.diameter).fold(f64::INFINITY, f64::min);
+        if next > BESIDE * room.diameter {
+            return end;
+        }
+        end += next;
+    }
+    last
 }

@@ -84,12 +84,12 @@ pub struct Figures {
 impl Figures {
     /// Whether the asperities were ground.
     pub fn is_ground(&self) -> bool {
-        self.ground >= GROUND || self.small_pieces >= GROUND_PIECES
+        self.have_touched && (self.ground >= GROUND || self.small_pieces >= GROUND_PIECES)
     }
 
     /// Whether a large piece came off.
     pub fn is_split(&self) -> bool {
-        self.largest_piece >= CLEAVED
+        self.have_touched && self.largest_piece >= CLEAVED
     }
 
     /// The label.

@@ -32,7 +32,7 @@ pub enum AdhesiveError {
         ends: [usize; 2],
     },
     /// The two bodies overlap before they move.
-    #[error("the bodies overlap at the start; `gap` is {gap}, must be larger")]
+    #[error("the bodies overlap at the start; `gap` is {gap}, must be such that they do not")]
     Overlap {
         /// The gap [diameters].
         gap: f64,

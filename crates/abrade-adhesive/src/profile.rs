@@ -1,5 +1,7 @@
 //! The outline of a body's asperities over its base.
 
+use std::f64::consts::FRAC_PI_2;
+
 use abrade::ParameterError;
 use abrade::quantity::{self, Quantity};
 use schemars::JsonSchema;
@@ -70,7 +72,7 @@ impl Profile {
     pub fn check(&self, diameter: f64, period: f64) -> Vec<ParameterError> {
         let found = match self {
             Self::Trapezoid { top, height, side } => {
-                let base = top + 2.0 * height / side.tan();
+                let base = top + 2.0 * height / slope(*side);
                 let fits = base <= period * (1.0 + ROUNDING);
                 let wide = ParameterError {
                     field: "top",
@@ -81,7 +83,7 @@ impl Profile {
                     within("top", *top, diameter, period),
                     within("height", *height, diameter, STEEP * period),
                     // A facet of the side that an element does not fill tells nothing of the angle.
-                    within("side", *side, LEAST_SIDE, std::f64::consts::FRAC_PI_2).map(in_radians),
+                    within("side", *side, LEAST_SIDE, FRAC_PI_2),
                     (!fits).then_some(wide),
                 ]
             }
@@ -134,7 +136,7 @@ impl Profile {
             Self::Trapezoid { top, side, .. } => {
                 let beyond = (x - 0.5 * period).abs() - (0.5 * top - inset);
                 // A side of 90 deg has no foot.
-                if beyond <= 1e-6 * inset { 0.0 } else { beyond * side.tan() }
+                if beyond <= 1e-6 * inset { 0.0 } else { beyond * slope(*side) }
             }
             Self::Line { points } => {
                 let lowest = points.iter().map(|point| point[1]).fold(f64::INFINITY, f64::min);
@@ -156,10 +158,9 @@ pub(crate) fn within(
     ParameterError::within(field, value, low, high).filter(|_| !is_bound)
 }
 
-/// The error of an angle, with the unit of its bounds.
-fn in_radians(error: ParameterError) -> ParameterError {
-    let allowed = format!("between {LEAST_SIDE} and 1.5708 rad (2.9 to 90 deg)");
-    ParameterError { allowed, ..error }
+/// Height over way of a side [-]: of one that is a right angle but for rounding, that of the right angle.
+fn slope(side: f64) -> f64 {
+    side.min(FRAC_PI_2).tan()
 }
 
 /// Height of the line at `x`; between its last and first point it goes over the period.

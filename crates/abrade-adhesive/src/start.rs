@@ -18,7 +18,8 @@ impl Asperities {
     pub fn too_fast(&self, solid: &Solid) -> Option<ParameterError> {
         let fastest = fastest(self.diameter, self.numerics().step(solid, self.diameter));
         let is_fine = self.speed <= fastest;
-        let allowed = || format!("at most {fastest:.1} m/s, which a step resolves");
+        // Four digits, not rounded up.
+        let allowed = || format!("at most {:.3e} m/s, which a step resolves", 0.9995 * fastest);
         (!is_fine).then(|| ParameterError { field: "speed", value: self.speed, allowed: allowed() })
     }
 
@@ -37,7 +38,7 @@ impl Asperities {
     /// A fault if elements of the two bodies overlap before they move; the bodies are checked.
     pub fn overlap_at_start(&self) -> Option<ParameterError> {
         let (assembly, parts) = self.place(0.0);
-        let allowed = || "larger: the bodies overlap at the start".to_owned();
+        let allowed = || "such that the bodies do not overlap at the start".to_owned();
         let overlap = self.bodies_overlap(&assembly, &parts);
         overlap.then(|| ParameterError { field: "gap", value: self.gap, allowed: allowed() })
     }

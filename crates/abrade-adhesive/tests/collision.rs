@@ -78,6 +78,31 @@ fn overlap_counts_from_the_outermost_elements_that_there_are() {
     }
 }
 
+/// Fails for a gap that counts from the middle of a summit, or from where the period cuts it in two.
+#[test]
+fn the_gap_of_a_line_lies_between_the_ends_of_its_summits() {
+    let [d, period, row] = [25e-6, 2.25e-3, 0.5 * 3f64.sqrt() * 25e-6];
+    let middle = vec![[0.0, 0.0], [1.1e-3, 0.4e-3], [1.2e-3, 0.4e-3], [period, 0.0]];
+    let cut = vec![[0.0, 0.4e-3], [0.1e-3, 0.4e-3], [1.1e-3, 0.0], [2.2e-3, 0.4e-3]];
+    for points in [middle, cut] {
+        let asperities = Asperities { profile: Profile::Line { points }, ..Asperities::default() };
+        let collision = Collision::new(&solid(1.0, 0.0), &asperities).unwrap();
+        let (simulation, parts) = (collision.simulation(), collision.parts());
+        let of = |upper: bool| {
+            let own = (0..parts.len()).filter(|at| parts[*at].is_upper == upper);
+            let places: Vec<[f64; 2]> = own.map(|at| simulation.position(at)).collect();
+            let sign = if upper { -1.0 } else { 1.0 };
+            let top = places.iter().map(|p| sign * p[1]).fold(f64::NEG_INFINITY, f64::max);
+            let is_high = |p: &[f64; 2]| sign * p[1] > top - 0.5 * row;
+            places.into_iter().filter(is_high).map(|p| p[0]).collect::<Vec<f64>>()
+        };
+        let (lower, upper) = (of(false), of(true));
+        let ways = lower.iter().flat_map(|x| upper.iter().map(move |y| (y - x).rem_euclid(period)));
+        let apart = ways.fold(f64::INFINITY, f64::min) / d;
+        assert!((apart - 2.2).abs() < 1e-9, "{asperities:?}: {apart}");
+    }
+}
+
 /// Fails for forces that do not balance while nothing touches, for links that count as parted because they are
 /// long, and for bodies that slip past each other without having met.
 #[test]

@@ -67,6 +67,7 @@ pub(crate) fn map(MapArguments { map, sets, place, part }: &MapArguments) -> Res
         }
         return opened.tell();
     }
+    opened.file.notes().iter().for_each(|note| say::aside(&format!("note: {note}")));
     opened.make(part)?;
     match part.is_whole() {
         true => opened.tell(),
@@ -142,7 +143,7 @@ impl Opened {
         match (map.missing(), map.fruitless()) {
             (0, 0) => Ok(()),
             (0, none) => Err(Failure::Run(anyhow::anyhow!(
-                "no case of {none} of {} came to its end; the same command tries them again",
+                "no case of {none} of {} came to its end; a map that is made again tries them again",
                 count(map.points.len(), "point", "points")
             ))),
             (missing, _) => Err(self.lacks(missing)),

@@ -21,10 +21,7 @@ pub(crate) fn rows(file: &SceneFile) -> String {
 pub(crate) fn line(file: &SceneFile) -> String {
     let size = file.size();
     let mut parts = vec!["two asperities".to_owned(), extent(&size), of_core(size.seconds())];
-    let notes = file.notes().len();
-    if notes > 0 {
-        parts.push(count(notes, "note", "notes"));
-    }
+    parts.extend(notes_counted(&file.notes()));
     parts.join(", ")
 }
 
@@ -32,20 +29,28 @@ pub(crate) fn line(file: &SceneFile) -> String {
 pub(crate) fn rows_of_map(file: &MapFile) -> String {
     let (cases, size) = (file.cases().len(), file.size());
     let gaps = count(file.gaps.len(), "gap", "gaps");
-    [
+    let mut rows = vec![
         row("map", format!("{}: two asperities", file.name)),
         row("cases", format!("{cases}, from {gaps} at each point")),
         row("size", format!("{} in each case", extent(&size))),
         row("time", of_core(size.seconds() * cases as f64)),
-    ]
-    .concat()
+    ];
+    rows.extend(file.notes().into_iter().map(|note| row("note", note)));
+    rows.concat()
 }
 
 /// The whole of it in a line.
 pub(crate) fn line_of_map(file: &MapFile) -> String {
     let (cases, size) = (file.cases().len(), file.size());
     let (each, all) = (extent(&size), of_core(size.seconds() * cases as f64));
-    format!("map of two asperities, {}, {each} in each, {all}", count(cases, "case", "cases"))
+    let cases = count(cases, "case", "cases");
+    let mut parts = vec![format!("map of two asperities, {cases}, {each} in each"), all];
+    parts.extend(notes_counted(&file.notes()));
+    parts.join(", ")
+}
+
+fn notes_counted(notes: &[String]) -> Option<String> {
+    (!notes.is_empty()).then(|| count(notes.len(), "note", "notes"))
 }
 
 fn extent(size: &Size) -> String {

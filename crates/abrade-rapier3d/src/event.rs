@@ -27,7 +27,7 @@ pub enum WearEvent {
         /// The surface.
         surface: SurfaceId,
         /// Impulse on the body over the contact [N s], in the world; of all surfaces that it
-        /// touched together.
+        /// touched together. Of a contact that failed, without the step in which it did, as the time.
         impulse: Vector3<f64>,
         /// Volume displaced on this surface over the contact [m3].
         volume: f64,

@@ -167,7 +167,8 @@ impl WearWorld {
             tracked.book_failed(&worn, &mut self.events);
             error
         })?;
-        self.land(end, &start, &carried)?;
+        let landed = self.land(end, &start, &carried);
+        landed.inspect_err(|_| tracked.book_failed(&carried.worn, &mut self.events))?;
         self.book_micro(tracked, &carried, &start.frame, until);
         Ok(())
     }

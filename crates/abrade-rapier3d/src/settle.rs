@@ -186,7 +186,10 @@ impl WearWorld {
                     booking.impulse += impulse;
                     worn.push((surface, gained));
                 }
-                Err(error) => self.fail(held.body, surface, error),
+                Err((error, gained)) => {
+                    worn.push((surface, gained));
+                    self.fail(held.body, surface, error);
+                }
             }
         }
         let tracked = Tracked::slot(&mut self.bodies, held.body);
@@ -239,7 +242,7 @@ impl WearWorld {
         load: f64,
         world: &WorldView<'_>,
         observer: &mut dyn WearObserver,
-    ) -> Result<(Vector3<f64>, f64), PhysicsError> {
+    ) -> Result<(Vector3<f64>, f64), (PhysicsError, f64)> {
         let dt = self.current.dt;
         let tracked = Tracked::slot(&mut self.bodies, held.body);
         let (Some(rb), Some(lie)) = (world.bodies.get(held.body), Lie::find(&self.lies, surface))
@@ -268,7 +271,8 @@ impl WearWorld {
             (Some(at), ..) => at,
             (None, Some(start), Some(body)) => {
                 let settings = self.settings.encounter();
-                let pressing = Pressing::new(body, start, surface, worn, settings)?;
+                let pressing = Pressing::new(body, start, surface, worn, settings);
+                let pressing = pressing.map_err(|error| (error, 0.0))?;
                 tracked.pressing.push(pressing);
                 tracked.pressing.len() - 1
             }
@@ -278,13 +282,14 @@ impl WearWorld {
         let pressing = &mut tracked.pressing[at];
         let (surfaces, lies) = (&mut self.surfaces, &self.lies);
         let way = Move { end: &end, load, dt };
-        let Some(done) = pressing.advance(held.body, surfaces, lies, &way, observer)? else {
+        let done = pressing.advance(held.body, surfaces, lies, &way, observer);
+        let gained = self.surfaces[surface.0].surface.worn().displaced() - displaced;
+        let Some(done) = done.map_err(|error| (error, gained))? else {
             return Ok(held_up);
         };
         tracked.friction = done.friction;
         self.counters.steps += done.advance.steps;
         self.counters.node_evaluations += done.advance.node_evaluations;
-        let gained = self.surfaces[surface.0].surface.worn().displaced() - displaced;
         Ok((frame * done.advance.impulse, gained))
     }
 }

@@ -52,15 +52,18 @@ fn faults_are_shown_where_they_stand() {
         (["run", "bodies.ron", "--set", "solid.adhesion=\"1 mm\""], "a pressure"),
         (["run", "bodies.ron", "--set", "bodies.overlp=0.3"], "did you mean `overlap`?"),
         (["run", "bodies.ron", "--set", "outline=\"line.csv\""], "line 2 of `line.csv`"),
-        (["run", "bodies.ron", "--set", "bodies.gap=-4.0"], "the bodies overlap"),
+        (
+            ["run", "bodies.ron", "--set", "bodies.gap=-4.0"],
+            "the bodies do not overlap at the start",
+        ),
         (["run", "bodies.ron", "--set", "solid.poisson=0.1"], "must be below 0.4658"),
         (["run", "bodies.ron", "--set", "bodies.courant=0.65"], "^^^^ must be below 0.6017"),
         (["map", "map.ron", "--set", "shear_strengths=[0.0]"], "must be finite and above zero"),
         (["map", "map.ron", "--set", "gaps=[1.2,1.2]"], "`gaps.1` is there twice"),
         (["map", "map.ron", "--case", "17"], "there is no case 17"),
-        (["run", "bodies.ron", "--set", "bodies.speed=200.0"], "must be at most 143."),
+        (["run", "bodies.ron", "--set", "bodies.speed=200.0"], "must be at most 1.43"),
         (["run", "bodies.ron", "--set", "solid.adhesion_range=\"5 um\""], "at most 0.05 diameters"),
-        (["run", "bodies.ron", "--set", "bodies.profile.side=3.0"], "1.5708 rad (2.9 to 90 deg)"),
+        (["run", "bodies.ron", "--set", "bodies.profile.side=3.0"], "between 0.05 and 90 deg"),
         (["map", "map.ron", "--set", "gaps=[1.2,-4.0]"], "`gaps.1` is out of range"),
         (["map", "map.ron", "--set", "bodies.gap=1.3"], "give `gaps` alone"),
         (["map", "map.ron", "--set", "solid.adhesion=1e6"], "give `adhesion_ratios` alone"),
@@ -81,9 +84,9 @@ fn check_tells_what_a_run_would_and_how_long_it_takes() {
     folder.write("map.ron", MAP);
     let check = |file: &str, set: &str| folder.abrade(&["check", file, "--set", set]);
     for (file, set, told) in [
-        ("bodies.ron", "bodies.speed=200.0", "must be at most 143."),
-        ("bodies.ron", "bodies.gap=-4.0", "the bodies overlap"),
-        ("map.ron", "gaps=[1.2,-4.0]", "the bodies overlap"),
+        ("bodies.ron", "bodies.speed=200.0", "must be at most 1.43"),
+        ("bodies.ron", "bodies.gap=-4.0", "the bodies do not overlap at the start"),
+        ("map.ron", "gaps=[1.2,-4.0]", "the bodies do not overlap at the start"),
     ] {
         let said = check(file, set);
         assert_eq!(said.code, Some(2), "{set}: {}", said.out);

@@ -155,7 +155,9 @@ impl Map {
                     hits: p.ground,
                 };
                 let shares: Vec<Share> = self.points.iter().filter(is_own).map(share).collect();
-                found.push((ratio, strength, fit::boundary(&shares)));
+                if !shares.is_empty() {
+                    found.push((ratio, strength, fit::boundary(&shares)));
+                }
             }
         }
         found

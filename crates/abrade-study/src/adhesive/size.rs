@@ -46,6 +46,11 @@ impl SceneFile {
 }
 
 impl MapFile {
+    /// What stands out, though it can be run.
+    pub fn notes(&self) -> Vec<String> {
+        soft(&self.solid).into_iter().collect()
+    }
+
     /// Size of each collision: what a map varies does not change it.
     pub fn size(&self) -> Size {
         Size::of(&self.solid, &self.bodies)
@@ -68,8 +73,9 @@ fn soft(solid: &Solid) -> Option<String> {
     let (hardening, least) = (solid.hardening, LEAST_HARDENING * solid.young);
     (hardening < least * (1.0 - ROUNDING)).then(|| {
         format!(
-            "`solid.hardening` is {hardening:e} Pa, below a tenth of `young`, {least:e} Pa: energy that nothing put in \
-             grows as large as the work of the drives, and the run may end early (docs/adhesive.md)"
+            "`solid.hardening` is {hardening:e} Pa, below a tenth of `young`, {least:e} Pa: averaged returns make energy \
+             out of nothing, a tenth of the work of the drives at a twentieth of `young` and most of it at a \
+             hundredth, and the run may end early (docs/adhesive.md)"
         )
     })
 }
