@@ -200,6 +200,16 @@ fn what_cannot_be_resampled_is_refused_with_the_pitch() {
     );
 }
 
+/// Fails for a spike whose area tells of few vertices and whose edges take millions: it would take all memory.
+#[test]
+fn a_needle_is_refused_before_it_takes_all_memory() {
+    let points = [[0.0, 0.0, 0.0], [1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0], [0.0, 0.0, 1e3]];
+    let facets = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    let needle = TriangleMesh::new(points.map(Point3::from).to_vec(), facets).expect("a needle");
+    let message = needle.resampled(1e-2).expect_err("too fine").to_string();
+    assert_eq!(message, "the mesh would have 5.000e6 vertices, at most 5.0e6 are allowed");
+}
+
 /// Fails for an order that depends on addresses or hashes.
 #[test]
 fn resampling_twice_gives_the_same_bits() {

@@ -40,7 +40,7 @@ impl TriangleMesh {
         let original = Original::of(self, &features);
         let mut patchwork = Patchwork::of(self, features);
         for _ in 0..ROUNDS {
-            passes::split_long(&mut patchwork, pitch);
+            passes::split_long(&mut patchwork, pitch)?;
             passes::collapse_short(&mut patchwork, &original, pitch);
             passes::flip(&mut patchwork, passes::evens_valence);
             relax::relax(&mut patchwork, &original);

@@ -6,6 +6,9 @@ use super::features::Kind;
 use super::guard::{Corners, hardly_turns, may_move, shape};
 use super::original::Original;
 use super::patchwork::{Edge, Patchwork};
+use crate::mesh::check::bound_count;
+use crate::mesh::error::MeshError;
+use crate::surface::SOLID_NODE_LIMIT;
 
 /// Lengths over pitch above which an edge is split and below which it is collapsed.
 const LONG: f64 = 4.0 / 3.0;
@@ -16,8 +19,9 @@ const SHORT_SHARP: f64 = 2.0 / 3.0;
 /// Halvings of the longest edge after which the pass ends in any case.
 const MOST_HALVINGS: usize = 64;
 
-/// Splits every edge that is too long, the longest first: sharp ones into equal parts.
-pub(super) fn split_long(net: &mut Patchwork, pitch: f64) {
+/// Splits every edge that is too long, the longest first: sharp ones into equal parts. Facets much longer
+/// than they are wide take more vertices than their area tells: fails at more than a solid may have.
+pub(super) fn split_long(net: &mut Patchwork, pitch: f64) -> Result<(), MeshError> {
     for _ in 0..MOST_HALVINGS {
         let long = |net: &Patchwork, [a, b]: [u32; 2]| {
             let limit = if net.chain(a, b).is_some() { LONG_SHARP } else { LONG };
@@ -26,9 +30,10 @@ pub(super) fn split_long(net: &mut Patchwork, pitch: f64) {
         let mut edges = net.edges();
         edges.retain(|edge| long(net, *edge));
         if edges.is_empty() {
-            return;
+            break;
         }
         sort_by_length(net, &mut edges);
+        let gone = net.points.len() - net.vertex_count();
         for [a, b] in edges.into_iter().rev() {
             let Some(edge) = net.edge(a, b) else { continue };
             let parts = (net.length([a, b]) / pitch).round().max(2.0);
@@ -38,8 +43,10 @@ pub(super) fn split_long(net: &mut Patchwork, pitch: f64) {
             };
             let [p, q] = [a, b].map(|i| net.points[i as usize]);
             net.split(edge, p + (q - p) * share);
+            bound_count("vertices", (net.points.len() - gone) as f64, SOLID_NODE_LIMIT)?;
         }
     }
+    Ok(())
 }
 
 /// Collapses every edge that is too short, the shortest first.

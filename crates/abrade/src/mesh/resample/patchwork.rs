@@ -51,6 +51,11 @@ impl Patchwork {
         }
     }
 
+    /// Number of the vertices that are left.
+    pub(super) fn vertex_count(&self) -> usize {
+        self.around.iter().filter(|facets| !facets.is_empty()).count()
+    }
+
     /// Vertices and facets that are left.
     pub(super) fn into_parts(self) -> (Vec<Point3<f64>>, Vec<[u32; 3]>) {
         let mut number = vec![0; self.points.len()];
