@@ -170,7 +170,7 @@ fn asked(name: &str) -> Option<u64> {
 /// The same, for more: `EXTREME_COUNT` cases from `EXTREME_FIRST` on. The rows of its cases and the
 /// map go to target/extremes, and the map into docs where `EXTREME_DOCS` is set.
 #[test]
-#[ignore = "half an hour on two cores; \
+#[ignore = "forty minutes on two cores; \
             cargo test --release --test extremes -- --ignored hundred_thousand --nocapture"]
 fn extremes_of_a_hundred_thousand_cases() {
     let first = asked("EXTREME_FIRST").unwrap_or(0);

@@ -210,12 +210,10 @@ impl Asperities {
         let [lower, upper] = [highest(&bodies[0]), highest(&bodies[1])];
         // Half a turn about the point between the corners takes one body to the other.
         let along = match self.profile {
-            Profile::Trapezoid { top, .. } => 2.0 * (0.5 * period) + (top + self.gap * d),
+            Profile::Trapezoid { top, .. } => period + (top + self.gap * d),
             // An element's edge lies half a diameter beyond its centre.
             Profile::Line { .. } => {
-                let corner = |at: usize| corner(&bodies[at], &room);
-                let [lower, upper] = [corner(0), corner(1)];
-                lower + upper + d * (1.0 + self.gap)
+                corner(&bodies[0], &room) + corner(&bodies[1], &room) + d * (1.0 + self.gap)
             }
         };
         let pivot = [along, lower + upper + d * (1.0 - self.overlap)];

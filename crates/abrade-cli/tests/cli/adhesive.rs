@@ -52,10 +52,7 @@ fn faults_are_shown_where_they_stand() {
         (["run", "bodies.ron", "--set", "solid.adhesion=\"1 mm\""], "a pressure"),
         (["run", "bodies.ron", "--set", "bodies.overlp=0.3"], "did you mean `overlap`?"),
         (["run", "bodies.ron", "--set", "outline=\"line.csv\""], "line 2 of `line.csv`"),
-        (
-            ["run", "bodies.ron", "--set", "bodies.gap=-4.0"],
-            "the bodies do not overlap at the start",
-        ),
+        (["run", "bodies.ron", "--set", "bodies.gap=-4.0"], "the bodies do not overlap"),
         (["run", "bodies.ron", "--set", "solid.poisson=0.1"], "must be below 0.4658"),
         (["run", "bodies.ron", "--set", "bodies.courant=0.65"], "^^^^ must be below 0.6017"),
         (["map", "map.ron", "--set", "shear_strengths=[0.0]"], "must be finite and above zero"),

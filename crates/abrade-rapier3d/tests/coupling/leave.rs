@@ -1,10 +1,10 @@
 //! Contacts that are broken off where they are: the embedder moves the body, or another resolver takes
 //! it over.
 
-use super::rig::{DENSITY, GAP, RADIUS, Rig, STRIP, plate_of, surface, towards_plate};
+use super::rig::{DENSITY, GAP, RADIUS, Rig, STRIP, plate_of, towards_plate};
 use crate::plugin::abrade::Inertia;
 use crate::plugin::rapier::prelude::*;
-use crate::plugin::{Resolve, Resolver, WearEvent, WearSettings, WearWorld, scalar};
+use crate::plugin::{Resolve, Resolver, WearEvent, scalar};
 use nalgebra::Vector3;
 
 /// Takes a body away from the plate.
@@ -135,19 +135,8 @@ fn a_body_that_takes_the_place_of_another_is_carried_as_it_was_placed() {
 /// Fails for an event that does not tell what a contact has worn in the step in which it failed.
 #[test]
 fn the_end_of_a_contact_that_fails_tells_what_it_wore() {
-    let mut rig = Rig::new(Vector3::zeros(), 1e-4);
-    let settings =
-        WearSettings { resolve: Resolve::Micro, step_limit: 12, ..WearSettings::default() };
-    rig.wear = WearWorld::new(settings);
-    let plate = rig.wear.insert_on_top(surface(), rig.proxy, &mut rig.world.colliders);
-    rig.plate = plate.expect("a proxy");
+    let mut rig = Rig::limited(12, 1e-4);
     rig.ball(Vector3::z() * (RADIUS + GAP), towards_plate(35.0, 60.0));
     assert!(rig.wear.step(&mut rig.world, &(), &()).is_err(), "twelve steps are too few");
-    let [WearEvent::Started { .. }, WearEvent::Ended { volume, .. }, WearEvent::Failed { .. }] =
-        rig.wear.events()
-    else {
-        panic!("{:?}", rig.wear.events())
-    };
-    let displaced = rig.wear[rig.plate].worn().displaced();
-    assert!(displaced > 0.0 && (volume / displaced - 1.0).abs() < 1e-9, "{volume:e}");
+    rig.assert_that_failure_tells_wear();
 }

@@ -7,7 +7,7 @@ use crate::plugin::abrade::{
 };
 use crate::plugin::rapier::math::Vector;
 use crate::plugin::rapier::prelude::*;
-use crate::plugin::{Resolve, SurfaceId, WearSettings, WearWorld, scalar};
+use crate::plugin::{Resolve, SurfaceId, WearEvent, WearSettings, WearWorld, scalar};
 use nalgebra::{Isometry3, Point3, Vector3};
 
 /// Radius of the ball [m].
@@ -61,6 +61,28 @@ impl Rig {
     /// The same, with the given resolvers.
     pub fn resolved_by(resolve: Resolve, origin: Vector3<f64>, dt: f64) -> Self {
         Self::of(surface(), [15e-3, 6e-3], resolve, origin, dt)
+    }
+
+    /// Resolved by Micro, with that many steps of a contact in one of `dt` [s] at most.
+    pub fn limited(step_limit: u64, dt: f64) -> Self {
+        let mut rig = Self::new(Vector3::zeros(), dt);
+        let resolve = Resolve::Micro;
+        rig.wear = WearWorld::new(WearSettings { resolve, step_limit, ..WearSettings::default() });
+        let plate = rig.wear.insert_on_top(surface(), rig.proxy, &mut rig.world.colliders);
+        rig.plate = plate.expect("a proxy");
+        rig
+    }
+
+    /// Asserts that the last step was one in which a contact began and failed, and that what it wore is told.
+    pub fn assert_that_failure_tells_wear(&self) {
+        let events = self.wear.events();
+        let [WearEvent::Started { .. }, WearEvent::Ended { volume, .. }, WearEvent::Failed { .. }] =
+            events
+        else {
+            panic!("{events:?}")
+        };
+        let displaced = self.wear[self.plate].worn().displaced();
+        assert!(displaced > 0.0 && (volume / displaced - 1.0).abs() < 1e-9, "{volume:e}");
     }
 
     /// A plate for many balls, at the origin.
