@@ -452,9 +452,9 @@ fn a_workpiece_that_lies_on_something_is_left_to_collision() {
 /// Fails for an event that does not tell what a tool has worn in the step in which its contact failed.
 #[test]
 fn the_end_of_a_cut_that_fails_tells_what_it_wore() {
-    let mut rig = Rig::limited(60, 1e-3);
+    let mut rig = Rig::limited(200, 1e-3);
     tool(&mut rig, Led::ByVelocity, beside(), Vector3::x() * 10.0 * SPEED);
     let fails = (0..10).any(|_| rig.wear.step(&mut rig.world, &(), &()).is_err());
-    assert!(fails, "sixty steps are too few");
+    assert!(fails, "two hundred steps are too few");
     rig.assert_that_failure_tells_wear();
 }
