@@ -4,7 +4,7 @@
 use abrade::ParameterError;
 use abrade::quantity::{self, Quantity};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::assembly::{Assembly, Element, Hold};
 use crate::error::AdhesiveError;
@@ -24,7 +24,7 @@ const PLACES: f64 = 1e7;
 
 /// Two bodies and their way past each other. The paper leaves out facet, sides, base, period, speed and
 /// the level that its overlap counts from: those defaults are this program's.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Asperities {
     /// Diameter d of an element (default 25 um) [m].

@@ -5,7 +5,7 @@ use abrade::quantity::{self, Quantity};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg32;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::profile::Profile;
 
@@ -13,7 +13,7 @@ use crate::profile::Profile;
 const SLACK: f64 = 1e-6;
 
 /// How the elements lie.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Packing {
     /// Close-packed, rows along the surface.

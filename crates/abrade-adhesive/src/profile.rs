@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use abrade::ParameterError;
 use abrade::quantity::{self, Quantity};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// What differs by less is the bound itself: `25 um` and 0.000025 are not the same number [-].
 const ROUNDING: f64 = 1e-9;
@@ -17,7 +17,7 @@ const STEEP: f64 = 1e3;
 const LEAST_SIDE: f64 = 0.05;
 
 /// Outline of the asperities of a body.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Profile {
     /// One trapezoid in a period. Centres of elements lie half a diameter inside its corners.

@@ -4,10 +4,10 @@
 use abrade::ParameterError;
 use abrade::quantity::{self, Quantity};
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// What the slope of linear hardening is taken against.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 pub enum HardeningSlope {
     /// The total equivalent strain, whose elastic slope is 3 G.
     #[default]
@@ -17,7 +17,7 @@ pub enum HardeningSlope {
 }
 
 /// A solid. The defaults are the reference values of the paper, with the shear strength of its figures.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Solid {
     /// Density rho (default 2000) [kg/m3].

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use abrade_adhesive::{Asperities, Solid};
 use abrade_scene::Progress;
 use abrade_study::adhesive;
 
@@ -106,9 +107,28 @@ fn bodies_that_do_not_touch_are_told_so() {
         let summary = adhesive::run(&scene, folder.path(), &mut Patient).unwrap().summary;
         let (json, text) = (summary.to_json(), summary.text());
         assert_eq!(json["mode"], mode, "{text}");
-        assert_eq!(json["note"].is_string(), mode == "no contact");
+        let warnings = json["warnings"].as_array().unwrap();
+        assert_eq!(warnings.len(), usize::from(mode == "no contact"), "{warnings:?}");
         assert_eq!(text.contains("note: the bodies did not touch"), mode == "no contact", "{text}");
     }
+}
+
+/// Fails for a summary from which its run cannot be made again, and for a warning that only the terminal shows.
+#[test]
+fn a_summary_holds_what_the_run_was_made_from() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = r#"(version: 1, name: "x", solid: (hardening: "50 MPa", slope: Plastic), frames: 1, rows: 1,
+        bodies: (travel: "1 um", profile: Trapezoid(side: "45 deg"), packing: Rotated(angle: "15 deg")))"#;
+    let scene = adhesive::load_scene(&write(folder.path(), scene), &[]).unwrap();
+    let json = adhesive::run(&scene, folder.path(), &mut Patient).unwrap().summary.to_json();
+    assert_eq!(serde_json::from_value::<Solid>(json["solid"].clone()).unwrap(), scene.solid);
+    assert_eq!(serde_json::from_value::<Asperities>(json["bodies"].clone()).unwrap(), scene.bodies);
+    let warnings = json["warnings"].as_array().unwrap();
+    for (warning, told) in warnings.iter().zip(["`solid.hardening` is 5e7 Pa", "did not touch"]) {
+        assert!(warning.as_str().unwrap().contains(told), "{json}");
+    }
+    assert_eq!(warnings.len(), 2, "{json}");
+    assert!(json["abrade"].is_string());
 }
 
 /// Fails for cases that end early without a word, for good, or as if they had slipped: bodies so fast that a step
@@ -123,7 +143,7 @@ fn cases_that_end_early_are_told_and_tried_again() {
         adhesive::result(&map, folder.path())
     };
     let made = make();
-    assert_eq!((made.missing(), made.fruitless(), made.points[0].failed), (0, 1, 2));
+    assert_eq!((made.missing(), made.fruitless(), made.points[0].early_runs), (0, 1, 2));
     assert_eq!(made.points[0].modes.iter().sum::<usize>(), 0);
     let told = made.table();
     assert!(told.contains("2 of 2 cases ended early; the first, case 0: at "), "{told}");

@@ -75,11 +75,7 @@ impl Regimes<'_> {
         let caption = canvas.fitted(self.caption, small, SIZE[0] as f64 - 1.5 * PLOT.left);
         canvas.text([PLOT.left, 87.0], &caption, small);
         let edges = [0, 1].map(|axis| self.edges(axis));
-        let ends = [0, 1].map(|axis| {
-            let of = &edges[axis];
-            let bounds = of.first().zip(of.last()).map(|((_, low, _), (_, _, high))| (*low, *high));
-            bounds.unwrap_or((0.0, 1.0))
-        });
+        let ends = [0, 1].map(|axis| self.ends(&edges[axis], axis));
         for cell in &self.cells {
             self.cell(&mut canvas, cell, &edges, ends)?;
         }
@@ -105,6 +101,16 @@ impl Regimes<'_> {
             (values[at], values[at] - below - alone, values[at] + above + alone)
         };
         (0..values.len()).map(around).collect()
+    }
+
+    /// The ends of an axis: room for all cells, whose edges are `edges`, and for the points of the boundaries.
+    fn ends(&self, edges: &[(f64, f64, f64)], axis: usize) -> (f64, f64) {
+        let cells =
+            edges.first().zip(edges.last()).map(|((_, low, _), (_, _, high))| (*low, *high));
+        let points = self.boundaries.iter().flat_map(|boundary| &boundary.points);
+        let wider =
+            |(low, high): (f64, f64), at: &[f64; 2]| (low.min(at[axis]), high.max(at[axis]));
+        points.fold(cells.unwrap_or((0.0, 1.0)), wider)
     }
 
     /// A cell, cut into upright strips by the shares of its classes.
@@ -241,6 +247,24 @@ mod tests {
         assert_eq!(reach([Some(0.2), Some(1.1)], (-0.1, 1.3)), [0.2, 1.1]);
         assert_eq!(reach([None, Some(1.1)], (-0.1, 1.3)), [-0.1, 1.1]);
         assert_eq!(reach([Some(0.2), None], (-0.1, 1.3)), [0.2, 1.3]);
+    }
+
+    /// Fails for a boundary that is drawn along the edge of the cells where it lies beyond them.
+    #[test]
+    fn a_boundary_beyond_the_cells_has_room() {
+        let cells = vec![Cell { at: [1.0, 0.0], counts: vec![1] }];
+        let beyond = Boundary { points: vec![[1.0, 1.2], [1.3, 0.2]], ..Boundary::default() };
+        let mut map = Regimes {
+            title: "",
+            caption: "",
+            axes: [""; 2],
+            classes: &["one"],
+            cells,
+            boundaries: vec![],
+        };
+        assert_eq!(map.ends(&map.edges(1), 1), (-0.5, 0.5));
+        map.boundaries.push(beyond);
+        assert_eq!(map.ends(&map.edges(1), 1), (-0.5, 1.2));
     }
 
     /// Fails for a legend that tells of what no run came to.

@@ -46,13 +46,13 @@ pub struct Point {
     /// Cases that came to their end.
     pub runs: usize,
     /// Cases that ended early.
-    pub failed: usize,
-    /// Of those that did not: in each mode, ground, split.
+    pub early_runs: usize,
+    /// Of those that did not: in each mode.
     pub modes: [usize; KINDS],
-    /// Cases whose asperities were ground.
-    pub ground: usize,
-    /// Cases in which a large piece came off.
-    pub split: usize,
+    /// Of those: whose asperities were ground.
+    pub ground_runs: usize,
+    /// Of those: in which a large piece came off.
+    pub split_runs: usize,
     /// Means of the share that was ground, the largest piece and the share that was worn [-].
     pub means: [f64; 3],
 }
@@ -93,12 +93,12 @@ impl Point {
     fn count(&mut self, own: &[&Made]) {
         let figures: Vec<&Figures> = own.iter().filter_map(|made| made.as_ref().ok()).collect();
         self.runs = figures.len();
-        self.failed = own.len() - figures.len();
+        self.early_runs = own.len() - figures.len();
         for figures in &figures {
             let mode = MODES.iter().position(|mode| *mode == figures.mode()).unwrap_or(0);
             self.modes[mode] += 1;
-            self.ground += usize::from(figures.is_ground());
-            self.split += usize::from(figures.is_split());
+            self.ground_runs += usize::from(figures.is_ground());
+            self.split_runs += usize::from(figures.is_split());
         }
         let mean = |of: fn(&Figures) -> f64| {
             figures.iter().map(|figures| of(figures)).sum::<f64>() / self.runs.max(1) as f64
@@ -152,7 +152,7 @@ impl Map {
                 let share = |p: &Point| Share {
                     value: p.adhesion_ratio,
                     runs: p.touched(),
-                    hits: p.ground,
+                    hits: p.ground_runs,
                 };
                 let shares: Vec<Share> = self.points.iter().filter(is_own).map(share).collect();
                 if !shares.is_empty() {
@@ -173,7 +173,7 @@ impl Map {
                 .filter(|(_, count)| *count > 0)
                 .map(|(mode, count)| format!("{count} {}", mode.name()))
                 .collect();
-            let failed = match point.failed {
+            let failed = match point.early_runs {
                 0 => String::new(),
                 count => format!("; {count} ended early"),
             };
@@ -183,8 +183,8 @@ impl Map {
                 point.shear_strength / 1e6,
                 point.adhesion_ratio,
                 point.runs,
-                point.ground,
-                point.split,
+                point.ground_runs,
+                point.split_runs,
                 modes.join(", "),
             );
         }

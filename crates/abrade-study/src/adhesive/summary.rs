@@ -1,8 +1,8 @@
-//! `summary.json`: the label of a collision, its figures, loads and energies.
+//! `summary.json`: the label of a collision, its figures, loads and energies, and what it was made from.
 
 use std::path::Path;
 
-use abrade_adhesive::{AdhesiveError, Collision, Figures, Ledger, Mode};
+use abrade_adhesive::{AdhesiveError, Asperities, Collision, Figures, Ledger, Mode, Solid};
 use abrade_report::{ReportError, atomic};
 use serde_json::{Value, json};
 
@@ -12,7 +12,13 @@ use super::file::SceneFile;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Summary {
     /// Name of the scene.
-    pub name: String,
+    pub scene: String,
+    /// What both bodies consist of.
+    pub solid: Solid,
+    /// The bodies, with the points of an outline that was read from a file.
+    pub bodies: Asperities,
+    /// What the reader should know, in sentences.
+    pub warnings: Vec<String>,
     /// Share of the travel that was done [-].
     pub share: f64,
     /// Why it ended before, if it did.
@@ -35,14 +41,20 @@ impl Summary {
         collision: &Collision,
         failure: Option<&AdhesiveError>,
     ) -> Self {
-        let simulation = collision.simulation();
+        let (simulation, share) = (collision.simulation(), collision.share());
+        let figures = collision.figures();
+        let mut warnings = file.notes();
+        warnings.extend(apart(share, &figures).map(str::to_owned));
         Self {
-            name: file.name.clone(),
-            share: collision.share(),
+            scene: file.name.clone(),
+            solid: file.solid,
+            bodies: file.bodies.clone(),
+            warnings,
+            share,
             failure: failure.map(ToString::to_string),
             steps: (simulation.time() / simulation.step_length()).round() as u64,
             elements: simulation.count(),
-            figures: collision.figures(),
+            figures,
             mean_load: collision.mean_load(),
             ledger: simulation.ledger(),
         }
@@ -50,27 +62,21 @@ impl Summary {
 
     /// The label; none before the end of the travel.
     fn mode(&self) -> Option<Mode> {
-        (self.share >= 1.0).then(|| self.figures.mode())
+        mode(self.share, &self.figures)
     }
 
-    /// What a reader of the label must know.
-    fn note(&self) -> Option<&'static str> {
-        (self.mode() == Some(Mode::NoContact)).then_some(
-            "the bodies did not touch: `overlap`, `gap`, `travel` or the outline keeps them apart",
-        )
-    }
-
-    /// As JSON, a unit in every name.
+    /// As JSON: a unit in every name but those of `solid` and `bodies`, which are the scene's words, in SI.
     pub fn to_json(&self) -> Value {
         let (figures, ledger) = (&self.figures, &self.ledger);
         json!({
-            "name": self.name,
+            "scene": self.scene,
+            "abrade": env!("CARGO_PKG_VERSION"),
             "complete": self.share >= 1.0,
             "failure": self.failure,
             "mode": self.mode().map(Mode::name),
             "is_ground": self.mode().map(|_| figures.is_ground()),
             "is_split": self.mode().map(|_| figures.is_split()),
-            "note": self.note(),
+            "warnings": self.warnings,
             "figures": figures_json(figures),
             "elements": self.elements,
             "steps": self.steps,
@@ -85,6 +91,8 @@ impl Summary {
                 "released_J_m": ledger.released,
                 "drive_J_m": ledger.drive,
             },
+            "solid": self.solid,
+            "bodies": self.bodies,
         })
     }
 
@@ -93,13 +101,14 @@ impl Summary {
         let figures = &self.figures;
         let failure =
             self.failure.as_ref().map_or(String::new(), |why| format!("ended early: {why}\n"));
-        let note = self.note().map_or(String::new(), |note| format!("  note: {note}\n"));
+        let note =
+            apart(self.share, figures).map_or(String::new(), |note| format!("  note: {note}\n"));
         format!(
             "{failure}{}: {}\n  ground {:.3}, largest piece {:.3} of an asperity, {:.2} small pieces per facet element, \
              moved {:.1} % of the asperities\n  \
              transferred {:.3}, debris {:.3}, links failed {:.3}, joined: {}\n  \
              mean force on the lower body {:.0} N/m along, {:.0} N/m across; {} elements, {} steps\n{note}",
-            self.name,
+            self.scene,
             self.mode().map_or("broken off, no mode yet", Mode::name),
             figures.ground,
             figures.largest_piece,
@@ -120,6 +129,18 @@ impl Summary {
         let text = format!("{:#}\n", self.to_json());
         atomic::write(&folder.join("summary.json"), text.as_bytes())
     }
+}
+
+/// The label at a share of the travel; none before its end.
+fn mode(share: f64, figures: &Figures) -> Option<Mode> {
+    (share >= 1.0).then(|| figures.mode())
+}
+
+/// That the bodies did not touch, where they did not.
+fn apart(share: f64, figures: &Figures) -> Option<&'static str> {
+    (mode(share, figures) == Some(Mode::NoContact)).then_some(
+        "the bodies did not touch: `overlap`, `gap`, `travel` or the outline keeps them apart",
+    )
 }
 
 /// The figures, by the names of their columns.

@@ -39,7 +39,7 @@ pub fn write(map: &Map, out: &Path) -> Result<(), StudyError> {
 fn cases(map: &Map) -> String {
     let mut text =
         "case,strength_ratio,shear_strength_Pa,adhesion_ratio,gap_d,mode,ground,largest_piece,\
-                    small_pieces,worn,transferred,debris,failed,parted,joined,failure\n"
+                    small_pieces,worn,transferred,debris,failed,parted,are_joined,failure\n"
             .to_owned();
     for (case, made) in &map.cases {
         let _ = write!(
@@ -72,7 +72,7 @@ fn points(map: &Map) -> String {
     let column = |mode: &Mode| mode.name().replace(" + ", "_and_").replace(' ', "_");
     let names: Vec<String> = MODES.iter().map(column).collect();
     let mut text = format!(
-        "strength_ratio,shear_strength_Pa,adhesion_ratio,runs,failed,ground,split,{},mean_ground,\
+        "strength_ratio,shear_strength_Pa,adhesion_ratio,runs,early_runs,ground_runs,split_runs,{},mean_ground,\
          mean_largest_piece,mean_worn\n",
         names.join(",")
     );
@@ -88,9 +88,9 @@ fn points(map: &Map) -> String {
             point.shear_strength,
             point.adhesion_ratio,
             point.runs,
-            point.failed,
-            point.ground,
-            point.split
+            point.early_runs,
+            point.ground_runs,
+            point.split_runs
         );
     }
     text
@@ -119,7 +119,7 @@ fn picture(map: &Map) -> Result<Vec<u8>, StudyError> {
     let place = |ratio: f64, strength: f64| if over_strength { strength / 1e6 } else { ratio };
     let cells = map.points.iter().map(|point| Cell {
         at: [place(point.strength_ratio, point.shear_strength), point.adhesion_ratio],
-        counts: [&point.modes[..], &[point.failed]].concat(),
+        counts: [&point.modes[..], &[point.early_runs]].concat(),
     });
     let mut fitted = abrade_report::Boundary {
         name: "half of the runs grind, 95 %".into(),
@@ -140,9 +140,9 @@ fn picture(map: &Map) -> Result<Vec<u8>, StudyError> {
     }
     let names: Vec<&str> = MODES.iter().map(|mode| mode.name()).chain([EARLY]).collect();
     let caption = format!(
-        "overlap {}, {} per point; a cell is cut by the shares of its runs",
+        "overlap {}, {}; a cell is cut by the shares of its runs",
         map.file.bodies.overlap,
-        count(map.file.gaps.len(), "gap", "gaps")
+        drawn(map)
     );
     let x = if over_strength { "shear strength sigma_j (MPa)" } else { "ratio of strengths a" };
     let regimes = Regimes {
@@ -154,6 +154,17 @@ fn picture(map: &Map) -> Result<Vec<u8>, StudyError> {
         boundaries: vec![fitted, eq4],
     };
     Ok(regimes.to_png()?)
+}
+
+/// How many runs the cells show.
+fn drawn(map: &Map) -> String {
+    match map.missing() {
+        0 => format!("{} per point", count(map.file.gaps.len(), "gap", "gaps")),
+        missing => {
+            let there = map.cases.len();
+            format!("{there} of {}", count(there + missing, "case", "cases"))
+        }
+    }
 }
 
 #[cfg(test)]
@@ -173,7 +184,7 @@ mod tests {
             shear_strength: 4.5e6,
             adhesion_ratio,
             runs: 5,
-            ground,
+            ground_runs: ground,
             ..Point::default()
         };
         let points = file.adhesion_ratios.iter().zip(ground).map(point).collect();
@@ -193,8 +204,8 @@ mod tests {
         modes[MODES.len() - 1] = 4;
         let base = Point { strength_ratio: 1.0, shear_strength: 4.5e6, ..Point::default() };
         let points = vec![
-            Point { runs: 5, ground: 1, modes, ..base },
-            Point { adhesion_ratio: 1.0, runs: 5, ground: 5, ..base },
+            Point { runs: 5, ground_runs: 1, modes, ..base },
+            Point { adhesion_ratio: 1.0, runs: 5, ground_runs: 5, ..base },
         ];
         let map = Map { file, cases: Vec::new(), points };
         let head = super::points(&map).lines().next().unwrap().to_owned();
