@@ -78,8 +78,7 @@ fn names(folder: &Path) -> impl Iterator<Item = String> {
 /// What the run is called whose summary lies at `path`, if that is one.
 fn run_name(path: &Path) -> Option<String> {
     let summary: Value = serde_json::from_str(&std::fs::read_to_string(path).ok()?).ok()?;
-    let of_asperities = summary.get("mode").and_then(|_| summary.get("name"));
-    let name = summary.get("abrade").and_then(|_| summary.get("scene")).or(of_asperities)?;
+    let name = summary.get("abrade").and_then(|_| summary.get("scene"))?;
     name.as_str().map(str::to_owned)
 }
 
