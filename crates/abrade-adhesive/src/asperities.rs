@@ -55,7 +55,10 @@ pub struct Asperities {
     pub speed: f64,
     /// How far one body goes past the other (default: twice the facet or once the period, and six
     /// diameters) [m].
-    #[serde(deserialize_with = "quantity::optional_length")]
+    #[serde(
+        deserialize_with = "quantity::optional_length",
+        skip_serializing_if = "Option::is_none"
+    )]
     #[schemars(with = "Option<Quantity>")]
     pub travel: Option<f64>,
     /// Drag of the bases in shear waves through the base (default 0.5): ringing of the slabs dies out [-].

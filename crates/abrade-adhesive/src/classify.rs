@@ -59,7 +59,8 @@ impl Mode {
 /// said.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
-    /// Share in small pieces of what was never parted: ground, or cut by healed slip [-].
+    /// Elements in small pieces of what was never parted, ground or cut by healed slip, over those of both
+    /// asperities; pieces that came off a base count, so that it can exceed 1 [-].
     pub ground: f64,
     /// Largest piece that moved as a whole, as a share of one asperity [-].
     pub largest_piece: f64,
@@ -167,7 +168,8 @@ pub(crate) fn figures(state: &State) -> Figures {
     }
 }
 
-/// Number of elements in small pieces of links that never failed, without those of the bases.
+/// Number of elements in small pieces of links that never failed, of bases too, but not those that hold a part of
+/// a rigid row.
 fn ground(state: &State, small: usize) -> usize {
     let mut pieces = Components::new(state.parts.len());
     for pair in state.pairs.iter().filter(|pair| pair.is_original && pair.breaks == 0) {

@@ -34,9 +34,13 @@ impl Collision {
     /// The bodies of a solid at the start.
     ///
     /// # Errors
-    /// A parameter is out of range, the step is not stable in the solid, or the bodies overlap.
+    /// A parameter is out of range, adhesion reaches further than pairs are followed, the step is not stable in
+    /// the solid, or the bodies overlap.
     pub fn new(solid: &Solid, asperities: &Asperities) -> Result<Self, AdhesiveError> {
         if let Some(error) = solid.check().into_iter().chain(asperities.check()).next() {
+            return Err(error.into());
+        }
+        if let Some(error) = asperities.beyond_reach(solid) {
             return Err(error.into());
         }
         let (assembly, parts) = asperities.assemble(solid)?;
@@ -112,14 +116,25 @@ impl Collision {
         (x - x0 - speed * self.simulation.time()).hypot(y - y0)
     }
 
+    /// Velocity of an element along x in the last part of the travel, over that of the lower body [-]; that of its
+    /// own body before the first step.
+    fn pace(&self, element: usize) -> f64 {
+        let passed = self.simulation.time() - self.before_time;
+        match passed > 0.0 {
+            true => {
+                let way = self.simulation.position(element)[0] - self.before[element];
+                way / (self.speed * passed)
+            }
+            false if self.parts[element].is_upper => -1.0,
+            false => 1.0,
+        }
+    }
+
     /// What the collision has come to so far.
     pub fn figures(&self) -> Figures {
         let pairs: Vec<Pair> = self.simulation.pairs().collect();
         let left: Vec<f64> = (0..self.parts.len()).map(|at| self.left(at)).collect();
-        let passed = (self.simulation.time() - self.before_time).max(f64::MIN_POSITIVE);
-        let pace: Vec<f64> = (0..self.parts.len())
-            .map(|at| (self.simulation.position(at)[0] - self.before[at]) / (self.speed * passed))
-            .collect();
+        let pace: Vec<f64> = (0..self.parts.len()).map(|at| self.pace(at)).collect();
         classify::figures(&State {
             parts: &self.parts,
             pairs: &pairs,

@@ -56,7 +56,8 @@ impl Grid {
         // Points that flew far do not make the grid larger than the list of points.
         let most = (points.len() as f64).sqrt().ceil().max(1.0) * 4.0;
         self.corner = low;
-        self.cells = span.map(|span| (span / self.reach).floor().clamp(1.0, most) as usize);
+        // No `clamp`: of a span over the reach that is no number there is one cell.
+        self.cells = span.map(|span| (span / self.reach).floor().max(1.0).min(most) as usize);
         self.cell = [0, 1].map(|axis| span[axis] / self.cells[axis] as f64);
         self.sort(points);
     }

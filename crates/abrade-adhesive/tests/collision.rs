@@ -205,6 +205,19 @@ fn bodies_of_too_many_elements_are_refused() {
     assert_eq!(refused(Asperities { period: 0.1, ..usual() }), "");
 }
 
+/// Fails for adhesion further than pairs are followed, which would be lost without a word, and for figures of bodies
+/// at their start that call all of them debris.
+#[test]
+fn adhesion_reaches_no_further_than_pairs_are_followed() {
+    let of = |adhesion_range: f64| {
+        let solid = Solid { adhesion_range, ..solid(1.0, 0.4) };
+        Collision::new(&solid, &Asperities::default())
+    };
+    assert_eq!(of(1e-6).unwrap().figures().debris, 0.0);
+    let AdhesiveError::Parameter(error) = of(5e-6).unwrap_err() else { panic!("another error") };
+    assert_eq!(error.field, "adhesion_range");
+}
+
 /// Fails for bodies that start inside each other, and run all the same.
 #[test]
 fn overlap_at_the_start_is_refused() {

@@ -117,18 +117,28 @@ fn bodies_that_do_not_touch_are_told_so() {
 #[test]
 fn a_summary_holds_what_the_run_was_made_from() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = r#"(version: 1, name: "x", solid: (hardening: "50 MPa", slope: Plastic), frames: 1, rows: 1,
-        bodies: (travel: "1 um", profile: Trapezoid(side: "45 deg"), packing: Rotated(angle: "15 deg")))"#;
-    let scene = adhesive::load_scene(&write(folder.path(), scene), &[]).unwrap();
-    let json = adhesive::run(&scene, folder.path(), &mut Patient).unwrap().summary.to_json();
-    assert_eq!(serde_json::from_value::<Solid>(json["solid"].clone()).unwrap(), scene.solid);
-    assert_eq!(serde_json::from_value::<Asperities>(json["bodies"].clone()).unwrap(), scene.bodies);
-    let warnings = json["warnings"].as_array().unwrap();
-    for (warning, told) in warnings.iter().zip(["`solid.hardening` is 5e7 Pa", "did not touch"]) {
-        assert!(warning.as_str().unwrap().contains(told), "{json}");
+    for (words, warnings) in [
+        (
+            r#"solid: (hardening: "50 MPa", slope: Plastic), bodies: (travel: "1 um",
+            profile: Trapezoid(side: "45 deg"), packing: Rotated(angle: "15 deg"))"#,
+            &["`solid.hardening` is 5e7 Pa", "did not touch"][..],
+        ),
+        // Without a travel of its own.
+        ("bodies: (speed: 100.0)", &[]),
+    ] {
+        let scene = format!(r#"(version: 1, name: "x", frames: 1, rows: 1, {words})"#);
+        let scene = adhesive::load_scene(&write(folder.path(), &scene), &[]).unwrap();
+        let json = adhesive::run(&scene, folder.path(), &mut Patient).unwrap().summary.to_json();
+        let [solid, bodies] = ["solid", "bodies"].map(|name| json[name].clone());
+        assert_eq!(serde_json::from_value::<Solid>(solid).unwrap(), scene.solid);
+        assert_eq!(serde_json::from_value::<Asperities>(bodies).unwrap(), scene.bodies);
+        let told = json["warnings"].as_array().unwrap();
+        assert_eq!(told.len(), warnings.len(), "{json}");
+        for (warning, told) in told.iter().zip(warnings) {
+            assert!(warning.as_str().unwrap().contains(told), "{json}");
+        }
+        assert!(json["abrade"].is_string());
     }
-    assert_eq!(warnings.len(), 2, "{json}");
-    assert!(json["abrade"].is_string());
 }
 
 /// Fails for cases that end early without a word, for good, or as if they had slipped: bodies so fast that a step

@@ -225,7 +225,8 @@ impl ColumnLaw {
             let energy = price * slot.factor * slot.area * length;
             toll.wear += energy;
             let force = energy / entry.displacement;
-            self.press::<RUBS>(step, &entry.normal, &arm, force, &mut toll.flow);
+            let impulse = self.press::<RUBS>(step, &entry.normal, &arm, force, &mut toll.flow);
+            toll.flow.normal += impulse.dot(&slot.n);
             flow.length += length;
             if WEARS {
                 flow.rubbed += force * slide(step, &entry.normal, &arm);
@@ -237,7 +238,7 @@ impl ColumnLaw {
         }
     }
 
-    /// A force [N] over the step along minus a face normal, with its friction.
+    /// A force [N] over the step along minus a face normal, with its friction. Returns its impulse [N s].
     #[inline]
     fn press<const RUBS: bool>(
         &self,
@@ -246,7 +247,7 @@ impl ColumnLaw {
         arm: &Vector3<f64>,
         force: f64,
         push: &mut Push,
-    ) {
+    ) -> Vector3<f64> {
         let mut pull = -normal * force;
         if RUBS {
             let friction = self.price.friction;
@@ -260,6 +261,7 @@ impl ColumnLaw {
         let impulse = pull * step.motion.dt;
         push.impulse += impulse;
         push.torque += arm.cross(&impulse);
+        impulse
     }
 
     /// The spring below the deep end, compressed from `before` to `after` [m]. Returns its force in
@@ -292,7 +294,8 @@ impl ColumnLaw {
         };
         toll.elastic += change;
         toll.stiffness += self.stiffness * slot.area / (cosine * cosine);
-        self.press::<RUBS>(step, &span.deep_normal, &arm, force, &mut toll.spring);
+        let impulse = self.press::<RUBS>(step, &span.deep_normal, &arm, force, &mut toll.spring);
+        toll.spring.normal += impulse.dot(&slot.n);
         force
     }
 

@@ -19,6 +19,7 @@ use crate::column_law::{ColumnLaw, Cut, Step};
 use crate::damping::{Damping, Dashpots, damping_ratio};
 use crate::laws::ElasticLaw;
 use crate::node_law::Motion;
+use crate::projection::Paid;
 use crate::shape::Shape;
 #[cfg(feature = "state")]
 use crate::state::{Fault, finite, not_negative, require};
@@ -73,6 +74,9 @@ pub(crate) struct Columns {
     middle: Point3<f64>,
     #[cfg_attr(feature = "state", serde(skip))]
     damping: Vector3<f64>,
+    /// Their mean force along minus the nodes' normals over it [N].
+    #[cfg_attr(feature = "state", serde(skip))]
+    damping_load: f64,
 }
 
 /// A least gap between a body and columns [m].
@@ -108,6 +112,7 @@ impl Columns {
             toll: Toll::default(),
             middle: Point3::origin(),
             damping: Vector3::zeros(),
+            damping_load: 0.0,
         }
     }
 
@@ -341,11 +346,13 @@ impl Columns {
     /// Counts what the dashpots do over the last trial.
     pub(crate) fn take_damping(&mut self, damping: &Damping) {
         self.damping = damping.impulse;
+        self.damping_load = damping.normal_load;
     }
 
-    /// Makes the last trial, of a step of `dt` [s], the state; a blocked body (`share` < 1) takes
-    /// only that share.
-    pub(crate) fn commit(&mut self, surface: &mut Surface, share: f64, dt: f64) {
+    /// Makes the last trial, of a step of `dt` [s], the state; of the removal of a body that is blocked only the
+    /// share that it has `paid`.
+    pub(crate) fn commit(&mut self, surface: &mut Surface, paid: &Paid, dt: f64) {
+        let share = paid.flow.share;
         for cut in &self.cuts {
             let index = cut.index as usize;
             let (slot, column) = (&self.candidates.slots[index], &mut self.columns[index]);
@@ -374,8 +381,9 @@ impl Columns {
             }
         }
         let (worn, toll) = (&mut surface.gain, &self.toll);
-        let force = (toll.flow.impulse + toll.spring.impulse + self.damping) / dt;
-        worn.peak_normal_force = worn.peak_normal_force.max(force.norm());
+        let normal = toll.flow.normal * paid.flow.scale + toll.spring.normal * paid.spring;
+        let normal_force = normal / dt + self.damping_load;
+        worn.peak_normal_force = worn.peak_normal_force.max(normal_force);
         worn.peak_touching = worn.peak_touching.max(toll.touching);
         worn.indented_area = worn.indented_area.max(toll.flow_area);
     }

@@ -176,7 +176,7 @@ impl Damping {
 
     /// As impulses.
     pub(crate) fn push(&self) -> Push {
-        Push { impulse: self.impulse, torque: self.torque, friction: 0.0 }
+        Push { impulse: self.impulse, torque: self.torque, ..Push::default() }
     }
 
     /// Half of it, as impulses.

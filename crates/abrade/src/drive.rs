@@ -75,10 +75,13 @@ pub struct Driven {
     drive: Drive,
     integrator: Integrator,
     travelled: f64,
+    /// How far [`Driven::indent`] has pressed the body in [m].
+    indented: f64,
 }
 
 impl Driven {
-    /// A driven `body` above `surface`.
+    /// A driven `body` above `surface`: it gets the mass of the drive, stands still and no longer turns. One that
+    /// is refused stays as it was.
     ///
     /// # Errors
     /// A law that does not go with the body's shape, a mass that cannot move, or a drive out of
@@ -94,12 +97,14 @@ impl Driven {
                         speed above zero where it slides, all of them finite";
             return Err(PhysicsError::Unsupported { what });
         }
-        body.rotation_locked = true;
-        body.inertia.mass = drive.mass;
-        body.state.velocity = Vector3::zeros();
-        body.state.spin = Vector3::zeros();
-        let integrator = Integrator::new(body, [surface], settings)?;
-        Ok(Self { drive, integrator, travelled: 0.0 })
+        let mut led = body.clone();
+        led.rotation_locked = true;
+        led.inertia.mass = drive.mass;
+        led.state.velocity = Vector3::zeros();
+        led.state.spin = Vector3::zeros();
+        let integrator = Integrator::new(&led, [surface], settings)?;
+        *body = led;
+        Ok(Self { drive, integrator, travelled: 0.0, indented: 0.0 })
     }
 
     /// The drive.
@@ -138,8 +143,8 @@ impl Driven {
     /// Presses the body straight down until the surface answers with `indent_to`; takes no time.
     ///
     /// # Errors
-    /// A load that is not reached before the body is pressed in by its own size, or within the
-    /// limit of steps.
+    /// A load that is not reached before the body is pressed in by its own size, in this call and those before,
+    /// or within the limit of steps.
     pub fn indent(
         &mut self,
         body: &mut Body,
@@ -157,10 +162,10 @@ impl Driven {
         body.state.position += down * gap.max(0.0);
         let limit = body.shape.bounding_radius();
         let mut done = Advance::default();
-        let mut depth = 0.0;
         loop {
-            if depth > limit {
-                return Err(PhysicsError::LoadNotReached { load: self.drive.indent_to, depth });
+            if self.indented > limit {
+                let (load, depth) = (self.drive.indent_to, self.indented);
+                return Err(PhysicsError::LoadNotReached { load, depth });
             }
             if done.steps > self.integrator.step_limit() {
                 return Err(PhysicsError::TooManySteps { steps: done.steps });
@@ -178,7 +183,7 @@ impl Driven {
                 done.node_evaluations += trial.evaluations;
             }
             let reached = load(self.integrator.grip(&trial).force) >= (1.0 - LOAD) * target;
-            depth += step;
+            self.indented += step;
             done.steps += 1;
             self.lead(body, placed, step, &trial);
             observer.observe(&Instant {
@@ -206,7 +211,7 @@ impl Driven {
         duration: f64,
         observer: &mut dyn Observer,
     ) -> Result<Advance, PhysicsError> {
-        if duration <= 0.0 || self.is_done() {
+        if duration.is_nan() || duration <= 0.0 || self.is_done() {
             return Ok(Advance::default());
         }
         let left = (self.drive.distance - self.travelled) / self.drive.speed;

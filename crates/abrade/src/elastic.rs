@@ -168,7 +168,8 @@ pub fn calibrated_yield(material: &Material, radius: f64) -> f64 {
     let pi = std::f64::consts::PI;
     let hertz = 16.0 * plane_strain * plane_strain / (9.0 * pi * pi * radius * material.hardness);
     let [low, high] = CALIBRATED_YIELD.map(|d| d * radius);
-    (material.hardness / hertz).clamp(low, high)
+    // No `clamp`, which panics for a radius that is none.
+    (material.hardness / hertz).max(low).min(high)
 }
 
 /// k_w [Pa/m] of `Foundation` between two worn surfaces, by the laws of the one whose nodes they are;

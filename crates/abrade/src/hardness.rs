@@ -22,7 +22,8 @@ impl Surface {
     /// that it found: give them before.
     ///
     /// # Errors
-    /// Not as many factors as nodes; one that is not finite and above zero.
+    /// Not as many factors as nodes; one that is not finite and above zero; a node so soft that the traction of
+    /// the surface's adhesion reaches its hardness.
     pub fn set_hardness_factors(&mut self, factors: Vec<f32>) -> Result<(), SurfaceError> {
         let nodes = self.nodes().len();
         if factors.len() != nodes {
@@ -33,6 +34,10 @@ impl Surface {
             return Err(SurfaceError::HardnessFactor { node, factor: factors[node] });
         }
         let least = factors.iter().copied().fold(f32::INFINITY, f32::min);
+        if let Some(adhesion) = &self.laws().adhesion {
+            let hardness = self.laws().material.hardness * f64::from(least);
+            adhesion.below(hardness).map_or(Ok(()), Err)?;
+        }
         self.hardness_map = Some(Arc::new(HardnessMap { factors, least }));
         Ok(())
     }

@@ -62,8 +62,8 @@ pub struct Adhesion {
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::quantity::area_energy"))]
     #[cfg_attr(feature = "serde", schemars(with = "crate::quantity::Quantity"))]
     pub work: f64,
-    /// Distance up to which the traction acts [m]. The traction, work over range, must be below the
-    /// hardness; the rim of a contact, sqrt(2 R range) wide about a ball of radius R, should be five
+    /// Distance up to which the traction acts [m]. The traction, `work` over `range` times half of
+    /// `pull_off`, must be below the hardness of every node; the rim of a contact, sqrt(2 R range) wide about a ball of radius R, should be five
     /// pitches wide at least.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::quantity::length"))]
     #[cfg_attr(feature = "serde", schemars(with = "crate::quantity::Quantity"))]
@@ -97,18 +97,23 @@ impl Adhesion {
         let mut found: Vec<_> =
             sizes.into_iter().filter_map(|(field, x)| ParameterError::positive(field, x)).collect();
         found.extend(ParameterError::within("pull_off", self.pull_off, 1.5, 2.0));
-        let traction = self.traction();
-        if found.is_empty() && traction >= material.hardness {
-            found.push(ParameterError {
-                field: "range",
-                value: self.range,
-                allowed: format!(
-                    "so long that the traction on it, {traction:e} Pa, is below the hardness, {:e} Pa",
-                    material.hardness
-                ),
-            });
+        if found.is_empty() {
+            found.extend(self.below(material.hardness));
         }
         found
+    }
+
+    /// A fault if the traction reaches a hardness [Pa].
+    pub(crate) fn below(&self, hardness: f64) -> Option<ParameterError> {
+        let traction = self.traction();
+        let is_fine = traction < hardness;
+        (!is_fine).then(|| ParameterError {
+            field: "range",
+            value: self.range,
+            allowed: format!(
+                "so long that the traction on it, {traction:e} Pa, is below the hardness, {hardness:e} Pa"
+            ),
+        })
     }
 }
 

@@ -137,9 +137,10 @@ impl Changes {
     pub(crate) fn write(&self, depth: &mut [f64]) -> f64 {
         let mut deepest = 0.0f64;
         for (id, new) in &self.depths {
-            let depth = &mut depth[*id as usize];
-            *depth = depth.max(*new);
-            deepest = deepest.max(*depth);
+            if let Some(depth) = depth.get_mut(*id as usize) {
+                *depth = depth.max(*new);
+                deepest = deepest.max(*depth);
+            }
         }
         deepest
     }

@@ -22,6 +22,26 @@ pub(crate) struct Payment {
     pub share: f64,
 }
 
+/// What a body pays of a step's toll.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Paid {
+    /// Scale of the impulses of the springs.
+    pub spring: f64,
+    /// Of what flows.
+    pub flow: Payment,
+}
+
+impl Paid {
+    /// All of it, as of a body that something else leads.
+    pub(crate) const ALL: Self = Self { spring: 1.0, flow: Payment { scale: 1.0, share: 1.0 } };
+}
+
+impl Default for Paid {
+    fn default() -> Self {
+        Self::ALL
+    }
+}
+
 /// Change of the kinetic energy by impulses scaled by l: b l + a l^2 [J].
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Change {

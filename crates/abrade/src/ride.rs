@@ -227,7 +227,7 @@ impl Integrator {
         for (ride, answer) in self.rides.iter().zip(&self.answers) {
             let Some(ride) = ride else { continue };
             let back = reaction(&grip(part(answer)), state, &ride.end);
-            let push = Push { impulse: back.force, torque: back.torque, friction: 0.0 };
+            let push = Push { impulse: back.force, torque: back.torque, ..Push::default() };
             change += Change::of(&push, &ride.end, &ride.dynamics);
         }
         change

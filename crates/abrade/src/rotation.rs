@@ -47,8 +47,13 @@ impl Dynamics {
             // Scaled first: moments of small bodies underflow a determinant.
             _ => (tensor / mean).try_inverse()? / mean,
         };
-        let usable =
-            inertia.mass > 0.0 && inertia.mass.is_finite() && inverse.iter().all(|x| x.is_finite());
+        // A mean below zero would turn the sign of the others.
+        let is_positive =
+            locked || mean > 0.0 && (isotropic || (tensor / mean).cholesky().is_some());
+        let usable = inertia.mass > 0.0
+            && inertia.mass.is_finite()
+            && is_positive
+            && inverse.iter().all(|x| x.is_finite());
         usable.then_some(Self {
             inverse_mass: 1.0 / inertia.mass,
             tensor,

@@ -9,7 +9,7 @@ use crate::debt::unpaid;
 use crate::encounter::{Loads, Placed};
 use crate::integrate::Integrator;
 use crate::ledger::Ledger;
-use crate::projection::{Payment, balance_ahead, pay};
+use crate::projection::{Paid, balance_ahead, pay};
 #[cfg(feature = "state")]
 use crate::state::finite;
 use crate::toll::Toll;
@@ -39,8 +39,8 @@ pub(crate) struct Charge {
     pub torque: Vector3<f64>,
     /// Dissipated by slip under the sweeping faces [J].
     pub flow_friction: f64,
-    /// Share of the removal that the body can pay [-].
-    pub share: f64,
+    /// What the body pays of the toll.
+    pub paid: Paid,
     /// Energy that the springs were short of [J].
     pub short: f64,
     /// Of what they lost, the part that nobody had paid [J].
@@ -82,7 +82,7 @@ impl Integrator {
         state: &mut State,
     ) -> Charge {
         if !self.has_columns() && gain == 0.0 && self.short == 0.0 {
-            return Charge { share: 1.0, ..Charge::default() };
+            return Charge::default();
         }
         let guided = self.dynamics.is_guided();
         let flow_cost = toll.wear + toll.flow.friction;
@@ -101,7 +101,7 @@ impl Integrator {
         self.react(state, |answer| answer.sprung.scaled(scale));
         let cost = flow_cost + flow_gain;
         let payment = match guided {
-            true => Payment { scale: 1.0, share: 1.0 },
+            true => Paid::ALL.flow,
             false => pay(self.change(&toll.flow, state, |answer| &answer.flow), cost),
         };
         let flow = toll.flow.scaled(payment.scale);
@@ -111,7 +111,7 @@ impl Integrator {
             impulse: sprung.impulse + flow.impulse,
             torque: sprung.torque + flow.torque,
             flow_friction: toll.flow.friction * payment.share,
-            share: payment.share,
+            paid: Paid { spring: scale, flow: payment },
             short,
             forgiven,
         }
@@ -171,7 +171,7 @@ impl Integrator {
         let given_back = if moves { self.give_back() } else { 0.0 };
         let gained = [given_back, self.ahead_of_loads(body, loads, dt)];
         self.apply_halves(&mut state);
-        let Charge { mut impulse, mut torque, flow_friction, share, short, forgiven } =
+        let Charge { mut impulse, mut torque, flow_friction, paid, short, forgiven } =
             self.charge(toll, gained, &mut state);
         self.apply_halves(&mut state);
         if !by_faces {
@@ -182,7 +182,7 @@ impl Integrator {
             torque += self.damping.torque;
         }
         self.short = short;
-        let (elastic, push) = self.commit(surfaces, trial, share);
+        let (elastic, push) = self.commit(surfaces, trial, &paid);
         let mut pull = Pull {
             force: springs.force + impulse / dt,
             torque: springs.torque + torque / dt,
@@ -204,7 +204,7 @@ impl Integrator {
                 elastic,
                 friction: self.booked.friction + toll.spring.friction + flow_friction,
                 damping: if self.is_damped { self.damping.dissipated } else { 0.0 },
-                wear: self.booked.wear + toll.archard + toll.wear * share,
+                wear: self.booked.wear + toll.archard + toll.wear * paid.flow.share,
                 history: self.booked.history + toll.lost - forgiven - left,
                 adhesion,
                 external_work,
@@ -217,13 +217,13 @@ impl Integrator {
         Settled { state, impulse, twist }
     }
 
-    /// Makes a trial the nodes' state; a blocked body takes a `share` of the swept columns.
+    /// Makes a trial the nodes' state; of the swept columns what the body has `paid`.
     /// Returns the stored energy [J] and the push along the nodes' normals [N].
     fn commit(
         &mut self,
         surfaces: &mut [Placed<'_>],
         trial: &Trial,
-        share: f64,
+        paid: &Paid,
     ) -> (f64, Vector3<f64>) {
         let mut elastic = self.booked.elastic;
         let mut push = trial.springs.push;
@@ -237,7 +237,7 @@ impl Integrator {
                 Contact::Springs(patch) => patch.commit(placed.surface),
                 Contact::Mutual(mutual) => mutual.commit(placed),
                 Contact::Columns(columns) => {
-                    columns.commit(placed.surface, share, trial.dt);
+                    columns.commit(placed.surface, paid, trial.dt);
                     push += placed.pose * columns.impulse() / trial.dt;
                     if stored {
                         elastic += columns.elastic();
@@ -257,7 +257,7 @@ impl Integrator {
         trial: &Trial,
         [velocity, spin]: [Vector3<f64>; 2],
     ) {
-        let (elastic, push) = self.commit(surfaces, trial, 1.0);
+        let (elastic, push) = self.commit(surfaces, trial, &Paid::ALL);
         let adhesion = self.adhere(body, surfaces);
         let (Grip { force, torque }, drawn) = (self.grip(trial), self.attraction.grip);
         if self.keeps_ledger() {

@@ -250,13 +250,15 @@ impl Surface {
         self.leaf.map_or_else(Changes::default, |leaf| leaf.into_changes(gain))
     }
 
-    /// Takes over what a leaf of this surface has worn.
+    /// Takes over what a leaf of this surface has worn. Nodes that the surface does not have are left out: a
+    /// leaf has none.
     pub fn apply(&mut self, changes: &Changes) {
         self.settle();
         self.deepest = self.deepest.max(changes.write(&mut self.nodes.depth));
         self.worn += *changes.gain();
         if let Some(sunk) = &mut self.sunk {
-            changes.nodes().for_each(|id| sunk.note(id));
+            let is_there = |id: &u32| (*id as usize) < self.nodes.depth.len();
+            changes.nodes().filter(is_there).for_each(|id| sunk.note(id));
         }
     }
 

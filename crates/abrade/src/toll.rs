@@ -8,6 +8,8 @@ pub(crate) struct Push {
     /// Impulse [N s] and impulsive torque about the centre of mass [N m s].
     pub impulse: Vector3<f64>,
     pub torque: Vector3<f64>,
+    /// The impulses of the nodes, each along its normal [N s]; of columns alone.
+    pub normal: f64,
     /// Energy that slip under these impulses dissipates [J].
     pub friction: f64,
 }
@@ -36,6 +38,7 @@ impl Push {
     pub(crate) fn add(&mut self, other: &Self, pose: &Isometry3<f64>) {
         self.impulse += pose * other.impulse;
         self.torque += pose * other.torque;
+        self.normal += other.normal;
         self.friction += other.friction;
     }
 
@@ -44,6 +47,7 @@ impl Push {
         Self {
             impulse: self.impulse * scale,
             torque: self.torque * scale,
+            normal: self.normal * scale,
             friction: self.friction * scale,
         }
     }

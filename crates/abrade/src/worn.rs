@@ -74,3 +74,63 @@ impl AddAssign for Worn {
         self.indented_area = self.indented_area.max(other.indented_area);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Isometry3, Point3, Vector3};
+
+    use crate::body::{Body, State};
+    use crate::encounter::{Encounter, EncounterSettings, Instant, Loads, Observer, Placed, Until};
+    use crate::hull::{Hull, Polyhedron};
+    use crate::laws::ElasticLaw;
+    use crate::layout::HexStrip;
+    use crate::material::Material;
+    use crate::shape::Shape;
+    use crate::surface::{Surface, SurfaceLaws};
+
+    /// Largest force along the normal of a plate, and of any direction [N].
+    #[derive(Default)]
+    struct Seen {
+        along: f64,
+        whole: f64,
+    }
+
+    impl Observer for Seen {
+        fn observe(&mut self, instant: &Instant<'_, '_>) {
+            self.along = self.along.max(instant.force.z);
+            self.whole = self.whole.max(instant.force.norm());
+        }
+    }
+
+    /// Fails for a force of faces that is counted with what friction and steep faces exert along the surface.
+    #[test]
+    fn the_peak_of_faces_is_the_part_along_the_normal() {
+        for elastic in [ElasticLaw::Rigid, ElasticLaw::Foundation { stiffness: Some(100.0) }] {
+            let (hull, inertia, _) =
+                Hull::solid(&Polyhedron::Octahedron.vertices(0.5), 0.04).expect("a hull");
+            let young = Some(100.0);
+            let material =
+                Material { hardness: 1.0, shear_ratio: 0.25, young, poisson: 0.3, friction: 1.2 };
+            let laws = SurfaceLaws { elastic, ..SurfaceLaws::of(material) };
+            let strip = HexStrip { length: 3.0, width: 1.6, pitch: 0.04, rest_area: None };
+            let mut surface = Surface::hex_strip(strip, laws).expect("a plate");
+            let shape = Shape::hull(hull);
+            let mut state = State::at(Point3::new(-0.5, 0.0, 0.0));
+            state.position.z = 1e-6 - shape.lowest(&state.rotation, &Vector3::z());
+            state.velocity = Vector3::new(2.0, 0.0, -0.7);
+            let mut body = Body { shape, inertia, state, rotation_locked: true };
+            let settings = EncounterSettings::default();
+            let mut encounter = Encounter::new(&body, [&surface], settings).expect("an encounter");
+            let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
+            let mut seen = Seen::default();
+            let (loads, until) = (Loads::default(), Until::FirstExit);
+            encounter
+                .advance(&mut body, &mut placed, &loads, 20.0, until, &mut seen)
+                .expect("a blow");
+            let Seen { along, whole } = seen;
+            let peak = surface.worn().peak_normal_force;
+            assert!((peak / along - 1.0).abs() < 1e-9, "{peak} {along}");
+            assert!(whole > 1.3 * along, "{whole} {along}");
+        }
+    }
+}

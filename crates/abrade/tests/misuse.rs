@@ -7,7 +7,7 @@ use abrade::{
     EncounterSettings, HertzConvention, HexStrip, Hold, Inertia, Ledger, Loads, PhysicsError,
     Placed, Pressed, Shape, State, Surface, SurfaceLaws, TriangleMesh, Until,
 };
-use nalgebra::{Isometry3, Point3, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
 use soft::soft;
 
 fn laws(elastic: ElasticLaw) -> SurfaceLaws {
@@ -141,4 +141,75 @@ fn changes_never_raise_a_node() {
     surface.apply(&Changes::to_depths(vec![(3, 0.02)]));
     surface.apply(&Changes::to_depths(vec![(3, 0.01), (4, 0.01)]));
     assert_eq!([surface.depth(3), surface.depth(4), surface.deepest()], [0.02, 0.01, 0.02]);
+}
+
+/// Fails for an indentation that digs on by the body's size each time it is tried again.
+#[test]
+fn a_load_that_is_not_reached_is_refused_where_the_body_is() {
+    let (mut body, mut surface) = (ball(), plate(4.0));
+    let drive = Drive { indent_to: 1e3, ..drive(0.0, 0.0) };
+    let mut driven = Driven::new(&mut body, &surface, drive, Default::default()).expect("a drive");
+    let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
+    let mut indent = |body: &mut Body| {
+        let error = driven.indent(body, &mut placed, &mut ()).expect_err("a load out of reach");
+        assert!(matches!(error, PhysicsError::LoadNotReached { .. }), "{error}");
+        body.state
+    };
+    let first = indent(&mut body);
+    assert!(first.position.z < 0.1, "{first:?}");
+    assert_eq!(indent(&mut body), first);
+}
+
+/// Fails for a body that has been made the drive's by a drive that is refused.
+#[test]
+fn a_drive_that_is_refused_leaves_its_body_alone() {
+    let mut body = ball();
+    body.state.velocity.x = 3.0;
+    let drive = Drive { mass: f64::NAN, ..drive(0.0, 0.0) };
+    assert!(Driven::new(&mut body, &plate(1.0), drive, Default::default()).is_err());
+    assert_eq!((body.state.velocity.x, body.rotation_locked), (3.0, false));
+    assert_eq!(body.inertia, ball().inertia);
+}
+
+/// Fails for an inertia that lets torques turn a body backwards.
+#[test]
+fn an_inertia_that_is_not_positive_is_refused() {
+    let tensor = |moments: [f64; 3]| Matrix3::from_diagonal(&Vector3::from(moments)) * 1e-3;
+    let take = |tensor: Matrix3<f64>, rotation_locked: bool| {
+        let inertia = Inertia { tensor, ..ball().inertia };
+        let body = Body { inertia, rotation_locked, ..ball() };
+        Encounter::new(&body, [&plate(1.0)], Default::default())
+    };
+    for moments in [[-1.0; 3], [1.0, 2.0, -2.0], [-1.0, -2.0, -2.0], [0.0; 3], [f64::NAN; 3]] {
+        assert!(take(tensor(moments), false).is_err(), "{moments:?}");
+    }
+    assert!(take(tensor([1.0, 2.0, 2.5]), false).is_ok());
+    assert!(take(tensor([0.0; 3]), true).is_ok(), "what does not turn needs no moments");
+}
+
+/// Fails for adhesion that draws nodes over the hardness of a soft seam, which no flow law bears.
+#[test]
+fn a_seam_softer_than_the_traction_of_adhesion_is_refused() {
+    let mut laws = laws(SPRINGS);
+    laws.adhesion = Some(Adhesion::new(0.01, 0.05));
+    let strip = HexStrip { length: 1.0, width: 1.0, pitch: 0.05, rest_area: None };
+    let mut surface = Surface::hex_strip(strip, laws).expect("a plate");
+    let mut factors = vec![1.0; surface.nodes().len()];
+    factors[7] = 0.3;
+    assert_eq!(surface.set_hardness_factors(factors.clone()), Ok(()));
+    factors[7] = 0.1;
+    let error = surface.set_hardness_factors(factors).expect_err("a traction of 0.2");
+    assert!(error.to_string().contains("below the hardness, 1.0000000149011612e-1"), "{error}");
+}
+
+/// Fails for a panic where a radius is none, and for changes that reach for nodes which are not there.
+#[test]
+fn values_that_mean_nothing_do_not_panic() {
+    for radius in [-1.0, 0.0, f64::NAN, f64::INFINITY] {
+        abrade::calibrated_yield(&soft(), radius);
+    }
+    let mut surface = plate(1.0);
+    let nodes = surface.nodes().len();
+    surface.apply(&Changes::to_depths(vec![(nodes as u32, 0.1), (u32::MAX, 0.1)]));
+    assert_eq!(surface.deepest(), 0.0);
 }

@@ -95,3 +95,18 @@ fn speeds_beyond_the_step_end_a_run() {
     let ended = (0..100).try_for_each(|_| simulation.step());
     assert!(matches!(ended, Err(AdhesiveError::TooFast { element: 7, .. })), "{ended:?}");
 }
+
+/// Fails for a period or a reach that is no number and ends in a panic before it is refused.
+#[test]
+fn links_within_a_reach_that_is_none_do_not_panic() {
+    for (period, diameter) in [(Some(f64::NAN), D), (Some(0.0), D), (None, 0.0), (None, f64::NAN)] {
+        let mut assembly = block(4, 4);
+        (assembly.period, assembly.diameter) = (period, diameter);
+        assembly.link_within(1.01, |_, _| true);
+        assert!(Simulation::new(&elastic(), &assembly, Numerics::default()).is_err());
+        for element in &mut assembly.elements {
+            element.position = [0.0; 2];
+        }
+        assembly.link_within(1.01, |_, _| true);
+    }
+}

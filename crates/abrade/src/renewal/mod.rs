@@ -59,6 +59,12 @@ pub enum RenewError {
         /// Mean area on its way over the undeformed one [-].
         narrowed: f64,
     },
+    /// The depths at which nodes have swept what they were charged with do not come to rest.
+    #[error("{rounds} rounds do not find the depths at which nodes have swept their volume")]
+    Unsettled {
+        /// Rounds made.
+        rounds: usize,
+    },
     /// A facet turned over or collapsed.
     #[error("the facet at ({}, {}, {}) m has turned over or collapsed", at.x, at.y, at.z)]
     Spoilt {

@@ -43,10 +43,10 @@ pub(super) fn depths(nodes: &Nodes, triangles: &[[u32; 3]]) -> Result<Vec<f64>, 
             depths[i] = nodes.depth[i] / narrowed;
         }
         if (swept - charged).abs() <= TOLERANCE * charged {
-            break;
+            return Ok(depths);
         }
     }
-    Ok(depths)
+    Err(RenewError::Unsettled { rounds: ROUNDS })
 }
 
 /// Adds 4 S_i half-way and S_i at the end of the way to `sums`, for facets whose nodes move.
