@@ -125,17 +125,9 @@ impl WearWorld {
     pub(crate) fn leave_cut(&mut self, tool: &mut Tool, surface: SurfaceId, left: Left) {
         let lead = Lie::find(&self.lies, surface).and_then(|lie| lie.lead);
         let free = lead.and_then(|lead| lead.free);
-        let reason = match left {
-            Left::Refused(reason) => reason,
-            Left::Failed(PhysicsError::StartsInside { .. } | PhysicsError::StepVanished { .. }) => {
-                Refusal::Inside
-            }
-            Left::Failed(PhysicsError::TooManySteps { .. })
-                if self.settings.resolve == Resolve::Auto =>
-            {
-                Refusal::Stiff
-            }
-            Left::Failed(error) => return self.fail(tool.handle, surface, error),
+        let reason = match left.reason(self.settings.resolve) {
+            Ok(reason) => reason,
+            Err(error) => return self.fail(tool.handle, surface, error),
         };
         match (free, self.settings.resolve) {
             (Some(Free { body, .. }), Resolve::Auto) => {

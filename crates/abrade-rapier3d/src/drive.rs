@@ -3,6 +3,7 @@
 use abrade::{Body, Drive, Driven, Ledger, PhysicsError, Placed};
 use nalgebra::{Isometry3, Vector3};
 use rapier::dynamics::{RigidBodyHandle, RigidBodySet, RigidBodyType};
+use rapier::geometry::ColliderSet;
 
 use crate::error::{Led, WearError};
 use crate::micro;
@@ -29,7 +30,7 @@ impl WearWorld {
     ///
     /// # Errors
     /// There is no such body, or it is not kinematic and position-based, or it is driven or a tool
-    /// already; a drive that the surface's laws refuse.
+    /// already; a surface of another world; a drive that the surface's laws refuse.
     pub fn drive(
         &mut self,
         surface: SurfaceId,
@@ -49,7 +50,7 @@ impl WearWorld {
         if self.driven(handle).is_some() {
             return Err(WearError::LedAlready { body: handle, led: Led::Driven });
         }
-        let worn = &self.surfaces[surface.0].surface;
+        let worn = &self.worn(surface)?.surface;
         let driven = Driven::new(&mut body, worn, drive, self.settings.encounter())
             .map_err(|source| WearError::Physics { body: handle, surface, source })?;
         self.driven.push(DrivenBody { handle, surface, body, driven, indented: false });
@@ -70,30 +71,32 @@ impl WearWorld {
         }
     }
 
-    /// Carries every driven body through the step under way.
+    /// Carries every driven body through the step under way. One on a surface that nobody can meet stays where
+    /// it is.
     pub(crate) fn carry_driven(
         &mut self,
-        frames: &[Isometry3<f64>],
         bodies: &mut RigidBodySet,
+        colliders: &ColliderSet,
         observer: &mut dyn WearObserver,
     ) {
         let dt = self.current.dt;
-        for driven in &mut self.driven {
-            let worn = &mut self.surfaces[driven.surface.0];
-            let frame = frames[driven.surface.0];
+        let mut all = std::mem::take(&mut self.driven);
+        for driven in &mut all {
             let (body, surface) = (driven.handle, driven.surface);
+            let worn = &mut self.surfaces[surface.0];
+            let Some(frame) = worn.met_by(colliders).map(|proxy| worn.pose(proxy)) else {
+                continue;
+            };
             match driven.carry(worn, frame, dt, observer) {
                 Ok(advance) => self.counters.add(&advance),
-                Err(source) => {
-                    let failure = WearError::Physics { body, surface, source };
-                    self.current.failure.get_or_insert(failure);
-                }
+                Err(error) => self.fail(body, surface, error),
             }
             if let Some(rb) = bodies.get_mut(body) {
                 let state = driven.body.state.placed_by(&frame);
                 rb.set_next_kinematic_position(scalar::to_pose(&state.pose()));
             }
         }
+        self.driven = all;
     }
 }
 

@@ -35,6 +35,12 @@ pub enum WearError {
         /// The surface on it.
         surface: SurfaceId,
     },
+    /// The surface is of another world.
+    #[error("there is no wear surface {surface} in this world")]
+    NoSuchSurface {
+        /// The name given.
+        surface: SurfaceId,
+    },
     /// The body does not exist, or is not dynamic.
     #[error("there is no dynamic body {body:?}")]
     NoSuchBody {

@@ -7,7 +7,7 @@ use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::ColliderHandle;
 use thiserror::Error;
 
-use crate::resolver::Resolver;
+use crate::resolver::{Resolve, Resolver};
 use crate::surface::SurfaceId;
 
 /// An event of the last step.
@@ -166,6 +166,18 @@ impl Refusal {
             Self::Stiff => "stiff",
             Self::Multibody => "multibody",
             Self::Crowd { .. } => "crowd",
+        }
+    }
+
+    /// Why a contact that Micro could not carry goes to another resolver, if `resolve` lets it; none for an error
+    /// of the embedder's world.
+    pub(crate) fn of(error: &PhysicsError, resolve: Resolve) -> Option<Self> {
+        match error {
+            PhysicsError::StartsInside { .. } | PhysicsError::StepVanished { .. } => {
+                Some(Self::Inside)
+            }
+            PhysicsError::TooManySteps { .. } if resolve == Resolve::Auto => Some(Self::Stiff),
+            _ => None,
         }
     }
 

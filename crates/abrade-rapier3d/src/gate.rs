@@ -59,7 +59,7 @@ impl Lie {
     }
 }
 
-/// Where the surfaces lie; those whose proxy is gone or disabled are left out.
+/// Where the surfaces lie; those whose proxy is gone, disabled or a sensor are left out.
 pub(crate) fn lie(
     surfaces: &[WornCollider],
     world: &WorldView<'_>,
@@ -69,9 +69,7 @@ pub(crate) fn lie(
 ) {
     lies.clear();
     for (id, worn) in surfaces.iter().enumerate() {
-        let Some(proxy) = world.colliders.get(worn.proxy).filter(|proxy| proxy.is_enabled()) else {
-            continue;
-        };
+        let Some(proxy) = worn.met_by(world.colliders) else { continue };
         let mut pose = worn.pose(proxy);
         let extent = worn.bounds.grown(worn.inflation).placed_by(&pose);
         let lead = lead(proxy, world, tracked, &extent, dt);

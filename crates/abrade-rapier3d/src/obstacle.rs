@@ -240,8 +240,7 @@ fn cuboid(region: &Extent, frame: &Isometry3<f64>) -> (Pose, Cuboid) {
 
 /// Would Rapier solve a contact between the two?
 pub(crate) fn interact(a: &Collider, b: &Collider) -> bool {
-    a.is_enabled()
-        && !a.is_sensor()
+    [a, b].iter().all(|collider| collider.is_enabled() && !collider.is_sensor())
         && a.collision_groups().test(b.collision_groups())
         && a.solver_groups().test(b.solver_groups())
 }

@@ -52,7 +52,7 @@ impl WearWorld {
     /// 100 000 that fall anywhere; a ball that is cast does not.
     ///
     /// # Errors
-    /// The proxy is gone.
+    /// The surface is not of this world, or its proxy is gone.
     pub fn sync_colliders(
         &mut self,
         surface: SurfaceId,
@@ -70,7 +70,8 @@ impl WearWorld {
     /// [`WearWorld::sync_colliders`]. Those that are removed come back, under other handles, at
     /// the next one.
     pub fn query_colliders(&self, surface: SurfaceId) -> &[ColliderHandle] {
-        self.surfaces[surface.0].shown.as_ref().map_or(&[], |shown| &shown.colliders)
+        let shown = self.surfaces.get(surface.0).and_then(|worn| worn.shown.as_ref());
+        shown.map_or(&[], |shown| &shown.colliders)
     }
 }
 

@@ -76,13 +76,14 @@ impl WearWorld {
     /// say it rounded. Holds until the proxy is moved.
     ///
     /// # Errors
-    /// The proxy is gone.
+    /// The surface is not of this world, or its proxy is gone.
     pub fn place_surface(
         &mut self,
         surface: SurfaceId,
         pose: Isometry3<f64>,
         colliders: &ColliderSet,
     ) -> Result<(), WearError> {
+        self.worn(surface)?;
         let worn = &mut self.surfaces[surface.0];
         let missing = WearError::NoSuchCollider { collider: worn.proxy };
         worn.place(colliders.get(worn.proxy).ok_or(missing)?, pose);
@@ -108,7 +109,7 @@ impl WearWorld {
     /// the surface lies.
     ///
     /// # Errors
-    /// There is no such body, or it is not dynamic; the surface's proxy is gone.
+    /// There is no such body, or it is not dynamic; the surface is not of this world, or its proxy is gone.
     pub fn place_on(
         &mut self,
         surface: SurfaceId,
@@ -137,11 +138,11 @@ impl WearWorld {
         tracked.leave(&mut self.surfaces, &mut self.closed, &mut self.events);
         tracked.shadow = Some(shadow::write(rb, frame, body.state));
         rb.wake_up(true);
-        tracked.register(body);
-        self.glances.forget(handle);
-        if !self.registered.contains(&handle) {
+        if !tracked.registered {
             self.registered.push(handle);
         }
+        tracked.register(body);
+        self.glances.forget(handle);
         Ok(())
     }
 }

@@ -37,6 +37,19 @@ impl From<PhysicsError> for Left {
     }
 }
 
+impl Left {
+    /// Why another resolver may have the body; the error, where none may.
+    pub(crate) fn reason(self, resolve: Resolve) -> Result<Refusal, PhysicsError> {
+        match self {
+            Self::Refused(reason) => Ok(reason),
+            Self::Failed(error) => match Refusal::of(&error, resolve) {
+                Some(reason) => Ok(reason),
+                None => Err(error),
+            },
+        }
+    }
+}
+
 impl WearWorld {
     /// Carries one body through the step, or leaves it to Rapier and says why.
     pub(crate) fn resolve(
@@ -54,25 +67,25 @@ impl WearWorld {
         tracked.is_placed = false;
         let Err(left) = carried else { return };
         tracked.end(&mut self.surfaces, &mut self.closed, &mut self.events);
-        match left {
+        let resolve = self.settings.resolve;
+        let reason = match left {
             // Rapier's contacts overlap: only a state that the embedder gave exactly is an error.
-            Left::Failed(PhysicsError::StartsInside { .. } | PhysicsError::StepVanished { .. })
-                if !is_placed =>
+            Left::Failed(error)
+                if is_placed && Refusal::of(&error, resolve) == Some(Refusal::Inside) =>
             {
-                self.leave(handle, surface, Refusal::Inside, world);
+                Err(error)
             }
-            Left::Failed(PhysicsError::TooManySteps { .. })
-                if self.settings.resolve == Resolve::Auto =>
-            {
-                self.leave(handle, surface, Refusal::Stiff, world);
-            }
-            Left::Refused(reason) => self.leave(handle, surface, reason, world),
-            Left::Failed(error) => self.fail(handle, surface, error),
+            left => left.reason(resolve),
+        };
+        match reason {
+            Ok(reason) => self.leave(handle, surface, reason, world),
+            Err(error) => self.fail(handle, surface, error),
         }
     }
 
-    /// Ends the contacts of bodies that are gone.
+    /// Forgets bodies that are gone, and ends their contacts.
     pub(crate) fn drop_gone(&mut self, bodies: &RigidBodySet) {
+        self.registered.retain(|handle| bodies.contains(*handle));
         let is_gone = |tracked: &Tracked| tracked.is_open() && !bodies.contains(tracked.handle);
         for slot in &mut self.bodies {
             let Some(mut gone) = slot.take_if(|tracked| is_gone(tracked)) else { continue };

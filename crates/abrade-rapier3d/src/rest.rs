@@ -6,6 +6,7 @@ use rapier::dynamics::RigidBody;
 
 use crate::approach::{Strike, strike_speed};
 use crate::gate::{self, Course, Lie};
+use crate::pull::mass;
 use crate::quasi_static::holds;
 use crate::scalar;
 use crate::start::Scene;
@@ -38,7 +39,7 @@ impl Scene<'_> {
             return false;
         }
         // What moves along and ploughs is braked by it, which Rapier's contact would not do.
-        let load = pull * scalar::wide(rb.mass());
+        let load = pull * mass(rb, Some(tracked));
         let firm = |id: &SurfaceId| holds(&self.surfaces[id.0].surface, load);
         let limit = CREEP * rest_speed;
         let stays = |id: &SurfaceId| {

@@ -91,7 +91,7 @@ impl Counters {
 }
 
 /// What one step did.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepReport {
     /// Time by which the world went on [s].
     pub dt: f64,

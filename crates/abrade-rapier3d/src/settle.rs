@@ -10,13 +10,14 @@ use crate::gate::Lie;
 use crate::held::{self, Held};
 use crate::lockstep::{Lost, Share, gather};
 use crate::observer::WearObserver;
+use crate::pull::mass;
 use crate::quasi_static::{self, Move, Pressing};
 use crate::resolver::{Resolve, Resolver};
 use crate::surface::SurfaceId;
 use crate::tracked::Tracked;
 use crate::view::WorldView;
 use crate::world::WearWorld;
-use crate::{afloat, scalar, shadow, steer};
+use crate::{afloat, shadow, steer};
 
 /// Growth of the impulse of a contact from one step to the next that is no blow.
 pub(crate) const GROWTH: f64 = 1.5;
@@ -79,7 +80,7 @@ impl WearWorld {
             borne.push((id, lie.pose.inverse_transform_vector(&impulse).z.max(0.0) / dt));
         }
         let total: f64 = borne.iter().map(|(_, load)| load).sum();
-        let mass = scalar::wide(rb.mass());
+        let mass = mass(rb, Some(tracked));
         held.strikes |= total * dt > mass * held.rest_speed + GROWTH * held.bore * dt;
         tracked.borne = borne;
     }
@@ -140,13 +141,8 @@ impl WearWorld {
 
     /// True for an error of an island that another resolver need not share.
     fn can_go_on(&self, error: &PhysicsError) -> bool {
-        let stiff = matches!(
-            error,
-            PhysicsError::StepVanished { .. }
-                | PhysicsError::TooManySteps { .. }
-                | PhysicsError::StartsInside { .. }
-        );
-        stiff && self.settings.resolve == Resolve::Auto
+        let resolve = self.settings.resolve;
+        resolve == Resolve::Auto && Refusal::of(error, resolve).is_some()
     }
 
     fn book_share(&mut self, share: Share, reason: Option<Refusal>) {

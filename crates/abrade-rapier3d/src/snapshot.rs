@@ -92,6 +92,7 @@ impl Serialize for WearWorld {
             before: _,
             events: _,
             current: _,
+            last_step: _,
         } = self;
         Written {
             settings,

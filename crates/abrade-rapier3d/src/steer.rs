@@ -91,8 +91,9 @@ pub(crate) fn steer(
     let twist = scalar::vector(inverse * rb.user_torque());
     let damping = scalar::wide(rb.angular_damping());
     let (angvel, angular) = Leg::new(&turn, &twist, dt, substeps, damping, f64::INFINITY);
-    // Spins after oblique impacts are beyond Rapier's cap, and its gyroscopic term, which the
-    // integration has dealt with, would blur what others did.
+    // Spins after oblique impacts are beyond Rapier's cap: it is off from here on, or the flight after the
+    // contact would lose them. Its gyroscopic term, which the integration has dealt with, would blur what others
+    // did in this step.
     rb.set_allow_fast_rotation(true);
     rb.enable_gyroscopic_forces(false);
     rb.set_linvel(linvel, false);

@@ -12,8 +12,9 @@ use crate::gate::{self, Course, Lie};
 use crate::glance::Span;
 use crate::guard::WearGuard;
 use crate::observer::WearObserver;
+use crate::resolver::Resolve;
 use crate::settings::StepReport;
-use crate::surface::{SurfaceId, WornCollider};
+use crate::surface::SurfaceId;
 use crate::tracked::Tracked;
 use crate::view::WorldView;
 use crate::wall::Walker;
@@ -108,12 +109,7 @@ impl WearWorld {
             self.steer(&mut world, &gravity);
             self.drop_driven(world.bodies);
             if !self.driven.is_empty() {
-                let colliders = &*world.colliders;
-                let pose = |worn: &WornCollider| {
-                    colliders.get(worn.proxy).map_or_else(Isometry3::identity, |c| worn.pose(c))
-                };
-                let frames: Vec<_> = self.surfaces.iter().map(pose).collect();
-                self.carry_driven(&frames, world.bodies, observer);
+                self.carry_driven(world.bodies, world.colliders, observer);
             }
         }
         let (taken, surfaces) = (&self.taken, &self.surfaces);
@@ -138,7 +134,8 @@ impl WearWorld {
     ///
     /// # Errors
     /// A contact left the reach of the model in this step; its body was left to Rapier, or stopped
-    /// in its crater.
+    /// in its crater. The step is over all the same: [`WearWorld::last_step`] tells by how much the world
+    /// went on.
     pub fn end_step(&mut self, world: WorldView<'_>) -> Result<StepReport, WearError> {
         self.end_step_observed(world, &mut ())
     }
@@ -170,10 +167,8 @@ impl WearWorld {
         let proxy = proxies.find(|&proxy| world.colliders.contains(proxy));
         self.glances.seal(proxy, world.colliders);
         let Current { dt, exited, failure, .. } = std::mem::take(&mut self.current);
-        match failure {
-            Some(error) => Err(error),
-            None => Ok(StepReport { dt, exited }),
-        }
+        self.last_step = StepReport { dt, exited };
+        failure.map_or(Ok(self.last_step), Err)
     }
 
     fn open(&mut self, parameters: &IntegrationParameters) {
@@ -273,7 +268,8 @@ impl WearWorld {
         let Current { sight, contacts, .. } = self.current;
         course.near(&self.lies, surfaces, [sight, contacts], &mut tracked.near);
         tracked.near.retain(|id| gate::feels(rb, &surfaces[id.0], colliders));
-        let may_hold = tracked.near.iter().all(|id| gate::can_hold(&self.lies, surfaces, *id));
+        let may_hold = self.settings.resolve != Resolve::Micro
+            && tracked.near.iter().all(|id| gate::can_hold(&self.lies, surfaces, *id));
         if may_hold && !tracked.near.is_empty() && tracked.derive(rb, colliders).is_ok() {
             self.sleepers.push(handle);
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use abrade::{RenewError, Surface, Worn};
 use nalgebra::{Isometry3, Point3};
-use rapier::geometry::{Collider, ColliderHandle};
+use rapier::geometry::{Collider, ColliderHandle, ColliderSet};
 use rapier::math::Pose;
 
 use crate::path::Extent;
@@ -86,6 +86,11 @@ impl WornCollider {
     }
 
     /// The surface's frame in the world.
+    /// The proxy, if bodies can meet it: it is there, enabled and no sensor.
+    pub fn met_by<'a>(&self, colliders: &'a ColliderSet) -> Option<&'a Collider> {
+        colliders.get(self.proxy).filter(|proxy| proxy.is_enabled() && !proxy.is_sensor())
+    }
+
     pub fn pose(&self, proxy: &Collider) -> Isometry3<f64> {
         match &self.exact {
             Some((seen, exact)) if seen == proxy.position() => *exact,

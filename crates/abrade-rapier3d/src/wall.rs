@@ -2,7 +2,8 @@
 //! collider, the wall, and its own nodes give way.
 //!
 //! The wall is the striker of the encounter, a body that nothing moves; the body is what carries
-//! the surface. It goes through the step in Micro, if nothing else could come near it.
+//! the surface. It goes through the step in Micro, whatever resolver the world asks for, if nothing else could
+//! come near it.
 
 use abrade::{Body, Encounter, Inertia, Ledger, Loads, PhysicsError, State, Until};
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
@@ -88,29 +89,31 @@ impl WearWorld {
             let (surface, body) = (walker.surface, walker.body);
             match self.beside(walker, world) {
                 Beside::Nothing => self.leave_wall(body),
-                Beside::Bound(reason) => {
-                    self.leave_wall(body);
-                    match self.settings.resolve == Resolve::Auto {
-                        true => self.crowd(body, [surface], reason),
-                        false => self.refuse(body, surface, reason),
-                    }
-                }
+                Beside::Bound(reason) => self.hand_on(body, surface, reason),
                 Beside::Wall(wall) => match self.strike_wall(walker, wall, world) {
                     Ok(true) => {}
                     Ok(false) => {
                         self.leave_wall(body);
                         self.refuse(body, surface, Refusal::Shape { collider: wall });
                     }
-                    Err(PhysicsError::StartsInside { .. }) => {
-                        self.leave_wall(body);
-                        self.refuse(body, surface, Refusal::Inside);
-                    }
-                    Err(error) => {
-                        self.leave_wall(body);
-                        self.fail(body, surface, error);
-                    }
+                    Err(error) => match Refusal::of(&error, self.settings.resolve) {
+                        Some(reason) => self.hand_on(body, surface, reason),
+                        None => {
+                            self.leave_wall(body);
+                            self.fail(body, surface, error);
+                        }
+                    },
                 },
             }
+        }
+    }
+
+    /// Leaves a body to the impulses of its contacts, if the world lets it.
+    fn hand_on(&mut self, body: RigidBodyHandle, surface: SurfaceId, reason: Refusal) {
+        self.leave_wall(body);
+        match self.settings.resolve == Resolve::Auto {
+            true => self.crowd(body, [surface], reason),
+            false => self.refuse(body, surface, reason),
         }
     }
 

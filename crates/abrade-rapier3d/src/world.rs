@@ -24,7 +24,7 @@ use crate::neighbours::Neighbours;
 use crate::obstacle::Obstacles;
 use crate::path::Extent;
 use crate::resolver::Resolver;
-use crate::settings::{Counters, WearSettings};
+use crate::settings::{Counters, StepReport, WearSettings};
 use crate::shadow;
 use crate::steer::Steered;
 use crate::surface::{SurfaceId, WornCollider};
@@ -76,6 +76,7 @@ pub struct WearWorld {
     pub(crate) closed: Ledger,
     /// The step under way.
     pub(crate) current: Current,
+    pub(crate) last_step: StepReport,
 }
 
 /// Body steps, and pressed contacts among others, by resolver and [`Refusal::name`](crate::Refusal::name).
@@ -118,15 +119,20 @@ impl WearWorld {
     /// Frame of a surface in the world.
     ///
     /// # Errors
-    /// The proxy is gone.
+    /// The surface is not of this world, or its proxy is gone.
     pub fn frame(
         &self,
         surface: SurfaceId,
         colliders: &ColliderSet,
     ) -> Result<Isometry3<f64>, WearError> {
-        let worn = &self.surfaces[surface.0];
+        let worn = self.worn(surface)?;
         let missing = WearError::NoSuchCollider { collider: worn.proxy };
         Ok(worn.pose(colliders.get(worn.proxy).ok_or(missing)?))
+    }
+
+    /// A surface by its name, which may be that of another world.
+    pub(crate) fn worn(&self, surface: SurfaceId) -> Result<&WornCollider, WearError> {
+        self.surfaces.get(surface.0).ok_or(WearError::NoSuchSurface { surface })
     }
 
     /// State of a body in the world: exact as long as it was resolved here and not moved since,
@@ -215,6 +221,11 @@ impl WearWorld {
         self.reasons.iter().map(|((by, why), count)| (*by, &**why, *count))
     }
 
+    /// What the last step did, one that ended in an error too.
+    pub fn last_step(&self) -> StepReport {
+        self.last_step
+    }
+
     /// What was done since the world was made.
     pub fn counters(&self) -> &Counters {
         &self.counters
@@ -224,6 +235,8 @@ impl WearWorld {
 impl Index<SurfaceId> for WearWorld {
     type Output = Surface;
 
+    /// # Panics
+    /// The surface is of another world.
     fn index(&self, id: SurfaceId) -> &Surface {
         &self.surfaces[id.0].surface
     }

@@ -320,13 +320,14 @@ impl WearWorld {
 
     /// Leaves a contact that the core could not take to the end.
     fn give_up(&mut self, body: RigidBodyHandle, surface: SurfaceId, error: PhysicsError) {
-        match error {
-            PhysicsError::StartsInside { .. }
-            | PhysicsError::StepVanished { .. }
-            | PhysicsError::LoadNotReached { .. } => self.refuse(body, surface, Refusal::Inside),
-            PhysicsError::TooManySteps { .. } => self.refuse(body, surface, Refusal::Stiff),
-            PhysicsError::Unsupported { .. } => self.refuse(body, surface, Refusal::Wears),
-            error => self.fail(body, surface, error),
+        let reason = match &error {
+            PhysicsError::LoadNotReached { .. } => Some(Refusal::Inside),
+            PhysicsError::Unsupported { .. } => Some(Refusal::Wears),
+            error => Refusal::of(error, self.settings.resolve),
+        };
+        match reason {
+            Some(reason) => self.refuse(body, surface, reason),
+            None => self.fail(body, surface, error),
         }
     }
 

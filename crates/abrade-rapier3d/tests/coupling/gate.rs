@@ -216,3 +216,15 @@ fn a_force_moves_a_body_by_the_mass_that_it_was_registered_with() {
     // Over the gap its weight changes its energy by 3e-8.
     assert!(miss.abs() < 1e-4, "{miss:e}");
 }
+
+/// Fails for a proxy that is a sensor, with which Rapier makes no contact, and which turns a ball round all the same.
+#[test]
+fn a_proxy_that_is_a_sensor_is_met_by_nobody() {
+    let mut rig = Rig::new(Vector3::zeros(), 1e-3);
+    rig.world.colliders[rig.proxy].set_sensor(true);
+    let velocity = towards_plate(5.0, 90.0);
+    let ball = rig.ball(Vector3::z() * (RADIUS + GAP), velocity);
+    (0..3).for_each(|_| rig.step());
+    assert_eq!(scalar::vector(rig.world.bodies[ball].linvel()), velocity);
+    assert_eq!((rig.wear[rig.plate].wear_volume(), rig.wear.counters().micro), (0.0, 0));
+}
