@@ -225,6 +225,7 @@ fn a_proxy_that_is_a_sensor_is_met_by_nobody() {
     let velocity = towards_plate(5.0, 90.0);
     let ball = rig.ball(Vector3::z() * (RADIUS + GAP), velocity);
     (0..3).for_each(|_| rig.step());
-    assert_eq!(scalar::vector(rig.world.bodies[ball].linvel()), velocity);
+    let change = scalar::vector(rig.world.bodies[ball].linvel()) - velocity;
+    assert!(change.norm() < 1e-6, "{change}");
     assert_eq!((rig.wear[rig.plate].wear_volume(), rig.wear.counters().micro), (0.0, 0));
 }
