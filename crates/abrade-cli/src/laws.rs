@@ -90,6 +90,7 @@ fn shown(value: f64) -> String {
 fn evaluate(law: &Law, arguments: &LawsArguments) -> Result<(), Failure> {
     let given: Vec<_> =
         arguments.given.iter().map(|text| values(law, text)).collect::<Result<_, _>>()?;
+    values::once(given.iter().map(|values| values.parameter.name))?;
     let mut lists = given.iter().filter(|values| values.numbers.len() > 1);
     let list = lists.next();
     if let (Some(first), Some(second)) = (list, lists.next()) {

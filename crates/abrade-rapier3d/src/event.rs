@@ -169,14 +169,16 @@ impl Refusal {
         }
     }
 
-    /// Why a contact that Micro could not carry goes to another resolver, if `resolve` lets it; none for an error
-    /// of the embedder's world.
+    /// Why a contact that a resolver could not carry is left, if `resolve` lets it; none for an error of the
+    /// embedder's world.
     pub(crate) fn of(error: &PhysicsError, resolve: Resolve) -> Option<Self> {
         match error {
             PhysicsError::StartsInside { .. } | PhysicsError::StepVanished { .. } => {
                 Some(Self::Inside)
             }
             PhysicsError::TooManySteps { .. } if resolve == Resolve::Auto => Some(Self::Stiff),
+            // Something else bears it, or it hangs over the rim.
+            PhysicsError::LoadNotReached { .. } if resolve == Resolve::Auto => Some(Self::Inside),
             _ => None,
         }
     }

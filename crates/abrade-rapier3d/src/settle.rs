@@ -184,7 +184,10 @@ impl WearWorld {
                 }
                 Err((error, gained)) => {
                     worn.push((surface, gained));
-                    self.fail(held.body, surface, error);
+                    match Refusal::of(&error, self.settings.resolve) {
+                        Some(reason) => self.refuse(held.body, surface, reason),
+                        None => self.fail(held.body, surface, error),
+                    }
                 }
             }
         }

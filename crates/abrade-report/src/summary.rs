@@ -188,7 +188,8 @@ pub struct BodySummary {
 /// The energies of a run [J].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergySummary {
-    /// Kinetic energy at the start [J].
+    /// Kinetic energy at the start, and of driven bodies what springs hold at the end of their indentation: energies
+    /// count from there [J].
     #[serde(rename = "initial_J")]
     pub initial: f64,
     /// Kinetic energy now [J].

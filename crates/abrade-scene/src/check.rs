@@ -27,7 +27,7 @@ use crate::problem::{Mark, Problem, Source, any_of, suggestion};
 use crate::scene::Scene;
 use crate::solid::Solid;
 use crate::spans::{Node, ScenePath};
-use crate::{unlikely, way};
+use crate::{coarse, unlikely, way};
 
 /// A scene without a known fault, and the solids of its bodies.
 #[derive(Clone, Debug, PartialEq)]
@@ -90,7 +90,7 @@ pub(crate) fn check(
     let copied = BTreeMap::new();
     let mut checked =
         Checked { scene, streamed, due, copied, folder, solids, meshes, hardness, paths, notes };
-    let doubts = [unlikely::notes(&checked), way::notes(&checked)];
+    let doubts = [unlikely::notes(&checked), way::notes(&checked), coarse::notes(&checked)];
     checked.notes.extend(doubts.concat());
     checked.copy_surfaces();
     Ok(checked)

@@ -11,6 +11,7 @@ mod carrier;
 mod check;
 mod closed;
 pub mod clump;
+mod coarse;
 mod copies;
 mod deserialise;
 mod document;

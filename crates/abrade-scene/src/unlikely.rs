@@ -11,6 +11,9 @@ use crate::spans::path;
 /// Size of a body over that of the largest surface above which a unit was probably forgotten [-].
 const LARGE: f64 = 10.0;
 
+/// Speed of the fastest projectiles, of light-gas guns and meteoroids [m/s].
+const FASTEST: f64 = 8e4;
+
 /// What solids have of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Usual {
@@ -78,8 +81,28 @@ pub(crate) fn notes(checked: &Checked) -> Vec<String> {
     for (name, stream) in &scene.streams {
         stream.density.into_iter().for_each(|rho| density(&["streams", name], rho));
     }
+    notes.extend(fast_bodies(checked));
     notes.extend(large_bodies(checked));
     notes
+}
+
+/// Bodies that are faster than any projectile.
+fn fast_bodies(checked: &Checked) -> impl Iterator<Item = String> {
+    let scene = &checked.scene;
+    let bodies = scene.bodies.iter().filter(|(name, _)| !checked.is_streamed(name));
+    let bodies = bodies.map(|(name, body)| (path(&["bodies", name, "motion"]), &body.motion));
+    let streams = scene.streams.iter();
+    let streams =
+        streams.map(|(name, stream)| (path(&["streams", name, "motion"]), &stream.motion));
+    bodies.chain(streams).filter_map(|(name, motion)| {
+        let speed = place::velocity(motion).0.norm();
+        (speed > FASTEST).then(|| {
+            let speed = digits(speed);
+            format!(
+                "`{name}` is of {speed} m/s, faster than any projectile: a bare number is in m/s"
+            )
+        })
+    })
 }
 
 /// Bodies that are much larger than all surfaces.

@@ -185,7 +185,7 @@ impl Driven {
             let reached = load(self.integrator.grip(&trial).force) >= (1.0 - LOAD) * target;
             self.indented += step;
             done.steps += 1;
-            self.lead(body, placed, step, &trial);
+            self.lead(body, placed, &trial);
             observer.observe(&Instant {
                 time: 0.0,
                 state: &body.state,
@@ -288,10 +288,9 @@ impl Driven {
         (found.sink, trial)
     }
 
-    /// Makes a push that took `dt` [s] the state.
-    fn lead(&mut self, body: &mut Body, placed: &mut [Placed<'_>; 1], dt: f64, trial: &Trial) {
-        let velocities = [trial.shift / dt, body.state.spin];
-        self.integrator.lead(body, placed, trial, velocities);
+    /// Makes a push the state, which takes no time.
+    fn lead(&mut self, body: &mut Body, placed: &mut [Placed<'_>; 1], trial: &Trial) {
+        self.integrator.lead(body, placed, trial, [Vector3::zeros(); 2]);
     }
 
     /// A trial of a straight push by `shift` [m]; commits nothing.

@@ -158,7 +158,8 @@ pub enum PhysicsError {
     },
     /// A driven body cannot find the load.
     #[error(
-        "the load of {load:e} N is not reached before the body is pressed {depth:e} m into the surface"
+        "the load of {load:e} N is not reached before the body is pressed {depth:.3e} m in: the surface is too small \
+         or too soft for it, or the body has come to its rim"
     )]
     LoadNotReached {
         /// Load asked for [N].

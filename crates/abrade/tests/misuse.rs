@@ -4,8 +4,8 @@ mod soft;
 
 use abrade::{
     Adhesion, Body, Carried, Changes, Drive, DriveSolution, Driven, ElasticLaw, Encounter,
-    EncounterSettings, HertzConvention, HexStrip, Hold, Inertia, Ledger, Loads, PhysicsError,
-    Placed, Pressed, Shape, State, Surface, SurfaceLaws, TriangleMesh, Until,
+    EncounterSettings, HertzConvention, HexStrip, Hold, Inertia, Instant, Ledger, Loads, Observer,
+    PhysicsError, Placed, Pressed, Shape, State, Surface, SurfaceLaws, TriangleMesh, Until,
 };
 use nalgebra::{Isometry3, Matrix3, Point3, Vector3};
 use soft::soft;
@@ -45,14 +45,27 @@ fn a_slide_needs_a_speed() {
     assert!(is_unsupported(made));
 }
 
-/// Fails for a drive that is over and goes on: its velocity would be no number.
+/// The highest speed that is shown [m/s].
+#[derive(Default)]
+struct Seen(f64);
+
+impl Observer for Seen {
+    fn observe(&mut self, instant: &Instant<'_, '_>) {
+        self.0 = self.0.max(instant.state.velocity.norm());
+    }
+}
+
+/// Fails for a drive that is over and goes on: its velocity would be no number; and for an indentation that is
+/// shown at a pace of its own.
 #[test]
 fn a_drive_that_only_indents_stays_where_it_is() {
     let (mut body, mut surface) = (ball(), plate(1.0));
     let settings = EncounterSettings::default();
     let mut driven = Driven::new(&mut body, &surface, drive(0.0, 0.0), settings).expect("a drive");
     let mut placed = [Placed::at_rest(&mut surface, Isometry3::identity())];
-    driven.indent(&mut body, &mut placed, &mut ()).expect("an indentation");
+    let mut seen = Seen::default();
+    driven.indent(&mut body, &mut placed, &mut seen).expect("an indentation");
+    assert_eq!(seen.0, 0.0, "it takes no time");
     let before = body.state;
     driven.advance(&mut body, &mut placed, 0.1, &mut ()).expect("nothing");
     assert_eq!(before, body.state);

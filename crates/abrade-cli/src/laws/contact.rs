@@ -80,6 +80,8 @@ impl Asked {
     fn new(law: &'static Law, given: &[String]) -> Result<Self, Failure> {
         let (mut constants, mut displacements, mut distance) = (Vec::new(), None, None);
         let mut sides = Sides::default();
+        let names = given.iter().map(|text| values::named(text).map(|(name, _)| name));
+        values::once(names.collect::<Result<Vec<_>, _>>()?.into_iter())?;
         for text in given {
             if sides.take(text)? {
                 continue;

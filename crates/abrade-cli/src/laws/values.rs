@@ -48,6 +48,20 @@ pub(super) fn named(text: &str) -> Result<(&str, &str), Failure> {
     Ok((name.trim(), list))
 }
 
+/// Refuses a name that is given twice: the last value would count alone.
+pub(super) fn once<'a>(names: impl Iterator<Item = &'a str>) -> Result<(), Failure> {
+    let mut seen = Vec::new();
+    for name in names {
+        if seen.contains(&name) {
+            return Err(refused(format!(
+                "`{name}` is given twice; several values go into one, as in {name}=\"1, 2\""
+            )));
+        }
+        seen.push(name);
+    }
+    Ok(())
+}
+
 /// Reads the values of a parameter, with commas between them.
 pub(super) fn of_parameter<'a>(
     parameter: &'static Parameter,

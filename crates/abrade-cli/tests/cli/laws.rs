@@ -23,6 +23,15 @@ fn a_law_is_evaluated_where_it_is_asked_for() {
             ["angle [rad],volume [m3]", "0.5235987755982988,5.787037037037038e-14"]
         );
     }
+    // Of two values in two words the last would count alone.
+    for twice in [
+        &["laws", "finnie-1960", "mass=1 mg", "angle=10 deg", "angle=20 deg"][..],
+        &["laws", "contact", "jkr", "radius=1 mm", "radius=2 mm"],
+    ] {
+        let said = folder.abrade(twice);
+        assert_eq!(said.code, Some(2), "{}", said.out);
+        assert!(said.err.contains("is given twice; several values go into one"), "{}", said.err);
+    }
     let said = folder.abrade(&["laws", "--list"]);
     for law in ["archard\n", "oka-quartz\n", "status: seen; from memory"] {
         assert!(said.out.contains(law), "{}", said.out);

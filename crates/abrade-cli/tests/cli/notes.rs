@@ -62,6 +62,45 @@ fn a_value_that_no_solid_has_is_noted_before_anything_runs() {
     }
 }
 
+/// Fails for a scene that cannot show what it is for and runs without a word, and for a word about one that can.
+#[test]
+fn what_is_plainly_too_coarse_is_noted_before_anything_runs() {
+    let folder = Folder::new("coarse");
+    let notes = |sets: &[&str]| {
+        let sets: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
+        let said = folder.abrade(&[&["check", "scene.ron"], &sets[..]].concat());
+        assert_eq!(said.code, Some(0), "{}", said.err);
+        let notes = said.out.lines().filter_map(|line| line.strip_prefix("note     "));
+        notes.map(str::to_owned).collect::<Vec<_>>()
+    };
+    let jet = "streams.jet=(count: 20, every: 1e-5, density: 2650.0, motion: Impact(speed: 80.0, angle: 1.5), \
+               shape: Grain(form: Sphere, diameter: \"0.3 mm\"), \
+               position: OnSurface(surface: \"plate\", gap: \"1 mm\"))";
+    let coarse = "surfaces.plate.geometry.pitch=\"0.4 mm\"";
+    let adhesion = "surfaces.plate.adhesion=(work: 0.1, range: 1e-9)";
+    for (sets, told) in [
+        (
+            &[coarse][..],
+            "the contact of `bodies.ball` on `plate` is about 473 um in radius, and the pitch 400 um",
+        ),
+        (
+            &[adhesion],
+            "the rim in which adhesion draws `bodies.ball` to `plate` is 2.45 um wide, and the pitch 150 um",
+        ),
+        (&[jet], "about 2.88 bodies of `streams.jet` are on their way at once and may meet"),
+        (
+            &["bodies.ball.motion.speed=2e5"],
+            "`bodies.ball.motion` is of 2e5 m/s, faster than any projectile",
+        ),
+    ] {
+        let notes = notes(sets);
+        assert!(notes.len() == 1 && notes[0].starts_with(told), "{notes:?}");
+    }
+    for sets in [&[][..], &[jet, "run.step=1 us"]] {
+        assert_eq!(notes(sets), [""; 0], "{sets:?}");
+    }
+}
+
 /// Fails for a study whose numbers without units are taken as they stand without a word.
 #[test]
 fn a_value_that_no_solid_has_is_noted_in_a_study() {
@@ -98,7 +137,7 @@ fn a_body_that_comes_to_no_plate_is_noted_before_anything_runs() {
         [("(0.0, 0.0)", "45 deg"), ("(0.017, 0.0)", "90 deg"), ("(-0.04, 0.0)", "2 deg")]
     {
         let said = check(place, angle);
-        assert!(!said.contains("note"), "{place} {said}");
+        assert!(!said.contains("comes to no plate"), "{place} {said}");
     }
 }
 
@@ -191,7 +230,8 @@ fn a_wear_rate_is_told_with_its_unit_and_the_same_everywhere() {
     assert!((shown - told).abs() < 5e-3 * told, "{told} mm3/mm, {shown} mm3/mm");
 }
 
-/// Fails for a run in a long contact that no interrupt can end.
+/// Fails for a run in a long contact that no interrupt can end, and for one that the system's wish to end kills before
+/// its files are written.
 #[cfg(unix)]
 #[test]
 fn a_second_interrupt_ends_a_run_at_once() {
@@ -204,11 +244,11 @@ fn a_second_interrupt_ends_a_run_at_once() {
     run.current_dir(&folder.0).args(["run", "scene.ron", "--set", "materials.plate.hardness=7"]);
     let mut run = run.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     let pid = run.id().to_string();
-    let interrupt = || Command::new("kill").args(["-INT", &pid]).status().unwrap();
+    let interrupt = |signal| Command::new("kill").args([signal, &*pid]).status().unwrap();
     sleep(Duration::from_millis(500));
-    assert!(interrupt().success());
+    assert!(interrupt("-TERM").success());
     sleep(Duration::from_millis(500));
     assert!(run.try_wait().unwrap().is_none(), "the contact is too short for this test");
-    assert!(interrupt().success());
+    assert!(interrupt("-INT").success());
     assert_eq!(run.wait().unwrap().code(), Some(130));
 }

@@ -6,6 +6,9 @@ use super::Checker;
 use crate::scene::{Motion, Output, Stop, SurfaceMotion};
 use crate::spans::ScenePath;
 
+/// Longest step of the engine [s]: longer ones lose bodies' velocities to its limits.
+const LONGEST_STEP: f64 = 1.0;
+
 impl Checker<'_> {
     pub(super) fn check_run(&mut self) {
         self.check_stop();
@@ -15,7 +18,7 @@ impl Checker<'_> {
             &path,
             [
                 ParameterError::within("accuracy", run.accuracy, 1e-6, 0.5),
-                ParameterError::positive("step", run.step),
+                ParameterError::within("step", run.step, f64::MIN_POSITIVE, LONGEST_STEP),
             ],
         );
         let outputs = &self.scene.outputs;

@@ -19,7 +19,7 @@ pub struct Run {
     /// Target relative time error of the wear volume [-].
     #[serde(default = "default_accuracy")]
     pub accuracy: f64,
-    /// Time step of the engine [s] (default 1/240 s). In each a led surface moves at constant
+    /// Time step of the engine [s] (default 1/240 s), 1 s at most. In each a led surface moves at constant
     /// velocity.
     #[serde(default = "default_step", deserialize_with = "quantity::time")]
     #[schemars(with = "Quantity")]

@@ -47,6 +47,7 @@ impl Erosion {
             "Closed-form laws of debris, each where it is largest of these angles: {}.",
             peaks.join("; ")
         ));
+        lines.extend(self.wide());
         lines.push(
             "± is half of the 95 % interval. Displaced volume is not mass loss: debris is what the removal \
              rule takes of it."
@@ -66,8 +67,11 @@ impl Erosion {
         let degrees = |result: &CaseResult| digits(result.case.angle.to_degrees());
         let debris = |result: &CaseResult| result.quantity("removed_mm3_per_kg");
         let most = cases.iter().max_by(|a, b| debris(a).value.total_cmp(&debris(b).value))?;
-        let leaves = match debris(most).value > 0.0 {
+        let leaves = match debris(most).value > debris(most).half_width {
             true => format!("most debris at {} deg, {} mm³/kg", degrees(most), sign(&debris(most))),
+            false if debris(most).value > 0.0 => {
+                "less debris than the samples can tell from none".to_owned()
+            }
             false => "no debris by the removal rule".to_owned(),
         };
         let reference = self.file.reference.as_deref().filter(|reference| *reference != name);
@@ -219,8 +223,23 @@ impl Erosion {
         }
     }
 
+    /// How many cases ran out of samples before their interval was as narrow as asked for.
+    pub(crate) fn wide(&self) -> Option<String> {
+        let samples = &self.file.samples;
+        let wide = self.cases.iter().filter(|result| result.is_wide(samples)).count();
+        (wide > 0).then(|| {
+            format!(
+                "In {wide} of {} the interval of the displaced volume is wider than {} % after {}: give more samples.",
+                count(self.cases.len(), "case", "cases"),
+                digits(100.0 * samples.interval),
+                count(samples.most as usize, "impact", "impacts")
+            )
+        })
+    }
+
     fn method(&self) -> Vec<String> {
         let mut lines = method::lines(&self.file);
+        lines.push(format!("abrade {}.", env!("CARGO_PKG_VERSION")));
         for result in &self.cases {
             if let Some((missed, why)) = &result.missed {
                 let impacts = count(*missed, "impact", "impacts");

@@ -3,7 +3,7 @@
 
 use super::case::{Case, Made};
 use super::descriptors::Descriptors;
-use super::file::StudyFile;
+use super::file::{Samples, StudyFile};
 use super::impact::Impact;
 use super::quantities::{ALL, Quantity, REMOVED, WEAR};
 use super::sensitivity::{Sensitivity, sensitivities};
@@ -44,6 +44,13 @@ pub struct CaseResult {
     pub wear_ratio: Option<Estimate>,
     /// Debris per mass over that of the reference; None where that is missing or leaves none.
     pub removed_ratio: Option<Estimate>,
+}
+
+impl CaseResult {
+    /// True where the interval of the displaced volume is still wider than the study asks for.
+    pub fn is_wide(&self, samples: &Samples) -> bool {
+        self.impacts > 0 && self.quantity("wear_mm3_per_kg").relative() > samples.interval
+    }
 }
 
 /// How the displaced volume per impact goes with speed.

@@ -132,6 +132,9 @@ impl Erosion {
                 told(&exponent.wear)
             );
         }
+        if let Some(wide) = self.wide() {
+            let _ = writeln!(text, "{wide}");
+        }
         text
     }
 }
