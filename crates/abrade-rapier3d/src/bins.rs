@@ -3,7 +3,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use crate::path::Extent;
+use crate::extent::Extent;
 
 /// Cells of a layer per box that is expected.
 const CELLS_PER_BOX: usize = 1;

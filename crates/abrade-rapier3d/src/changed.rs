@@ -5,7 +5,7 @@ use abrade::Changes;
 use nalgebra::Point3;
 
 use crate::bins::Bins;
-use crate::path::Extent;
+use crate::extent::Extent;
 use crate::surface::WornCollider;
 
 /// The changed places of every surface, in its frame.

@@ -11,11 +11,11 @@ use rapier::geometry::{Collider, ColliderHandle};
 
 use crate::booking::{Booking, Contact};
 use crate::event::Refusal;
+use crate::extent::Extent;
 use crate::free::{self, Free};
 use crate::gate::{self, Course, Lead, Lie};
 use crate::observer::{Relay, WearObserver};
 use crate::obstacle::Search;
-use crate::path::Extent;
 use crate::resolve::Left;
 use crate::resolver::Resolve;
 use crate::surface::SurfaceId;

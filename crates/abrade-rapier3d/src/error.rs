@@ -75,7 +75,7 @@ pub enum WearError {
     Physics {
         /// The body.
         body: RigidBodyHandle,
-        /// The surface it was nearest to.
+        /// The surface, or the first of those that it was near.
         surface: SurfaceId,
         /// Why.
         source: PhysicsError,

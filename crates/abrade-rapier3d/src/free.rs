@@ -7,9 +7,9 @@ use rapier::dynamics::{RigidBody, RigidBodyHandle};
 
 use crate::derive;
 use crate::event::Refusal;
+use crate::extent::Extent;
 use crate::gate::{Course, Lead, Lie};
 use crate::obstacle::Search;
-use crate::path::Extent;
 use crate::start::Scene;
 use crate::surface::{SurfaceId, WornCollider};
 use crate::track::Track;

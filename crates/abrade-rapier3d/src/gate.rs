@@ -7,9 +7,9 @@ use rapier::dynamics::{LockedAxes, RigidBody, RigidBodyHandle, RigidBodyType};
 use rapier::geometry::{Collider, ColliderSet};
 
 use crate::event::Refusal;
+use crate::extent::Extent;
 use crate::free::Free;
 use crate::obstacle::{Obstacles, Search, interact};
-use crate::path::Extent;
 use crate::pull::pull;
 use crate::surface::{SurfaceId, WornCollider};
 use crate::track::Track;

@@ -10,8 +10,8 @@ use rapier::data::HasModifiedFlag;
 use rapier::dynamics::{RigidBody, RigidBodyHandle};
 use rapier::geometry::{ColliderHandle, ColliderSet};
 
+use crate::extent::Extent;
 use crate::gate::Lie;
-use crate::path::Extent;
 use crate::pull::pull;
 use crate::scalar;
 use crate::tracked::Tracked;

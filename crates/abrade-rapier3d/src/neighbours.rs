@@ -7,9 +7,9 @@ use nalgebra::Vector3;
 use rapier::dynamics::RigidBodyHandle;
 use rapier::geometry::{Collider, ColliderHandle};
 
+use crate::extent::Extent;
 use crate::lockstep::meeting;
 use crate::obstacle::{Sweep, extent, interact};
-use crate::path::Extent;
 use crate::query_collider::is_of_queries;
 use crate::scalar;
 use crate::view::WorldView;

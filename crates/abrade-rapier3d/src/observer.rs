@@ -22,9 +22,10 @@ pub struct MicroStep<'a, 'b> {
     pub instant: &'a Instant<'a, 'b>,
 }
 
-/// Sees every accepted contact step.
+/// Sees the accepted contact steps of Micro, of QuasiStatic on plates, of tools and of driven bodies. Islands, blows
+/// that Collision runs, what lies on moving surfaces, and walls are not shown.
 pub trait WearObserver {
-    /// Called once per accepted contact step, body after body.
+    /// Called once per such step, body after body.
     fn micro_step(&mut self, step: &MicroStep<'_, '_>);
 
     /// Whether it sees anything: a step that is watched is done body after body, with the same

@@ -11,7 +11,7 @@ use rapier::parry::query::intersection_test;
 use rapier::parry::shape::{Cuboid, Shape};
 
 use crate::bins::Bins;
-use crate::path::Extent;
+use crate::extent::Extent;
 use crate::pull::pull;
 use crate::query_collider::is_of_queries;
 use crate::scalar;

@@ -74,7 +74,8 @@ pub struct Counters {
     pub lockstep: u64,
     /// Blows between two bodies resolved by Collision.
     pub collision: u64,
-    /// Body steps left to Rapier near a wear surface, wearing nothing.
+    /// Times that a body near a wear surface was left to Rapier for a step, or its contact failed in it: what it had
+    /// worn by then stays.
     pub refused: u64,
     /// Contact steps of the integrator.
     pub steps: u64,

@@ -6,10 +6,10 @@ use rapier::dynamics::{RigidBody, RigidBodyHandle};
 
 use crate::ahead::Ahead;
 use crate::event::Refusal;
+use crate::extent::Extent;
 use crate::gate::{self, Course, Lie, Way};
 use crate::micro::Errand;
 use crate::obstacle::Obstacles;
-use crate::path::Extent;
 use crate::resolve::Left;
 use crate::resolver::Resolve;
 use crate::settings::WearSettings;

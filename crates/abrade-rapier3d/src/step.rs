@@ -36,7 +36,7 @@ impl WearWorld {
         self.step_observed(world, hooks, events, &mut ())
     }
 
-    /// As [`WearWorld::step`], showing every contact step to `observer`.
+    /// As [`WearWorld::step`], showing contact steps to `observer`: see [`WearObserver`].
     ///
     /// # Errors
     /// As [`WearWorld::step`].
@@ -65,7 +65,7 @@ impl WearWorld {
         self.begin_step_observed(world, hooks, &mut ())
     }
 
-    /// As [`WearWorld::begin_step`], showing every contact step to `observer`.
+    /// As [`WearWorld::begin_step`], showing contact steps to `observer`: see [`WearObserver`].
     pub fn begin_step_observed<'a>(
         &'a mut self,
         mut world: WorldView<'_>,
@@ -140,7 +140,7 @@ impl WearWorld {
         self.end_step_observed(world, &mut ())
     }
 
-    /// As [`WearWorld::end_step`], showing every contact step to `observer`.
+    /// As [`WearWorld::end_step`], showing contact steps to `observer`: see [`WearObserver`].
     ///
     /// # Errors
     /// As [`WearWorld::end_step`].

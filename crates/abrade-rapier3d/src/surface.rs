@@ -8,7 +8,7 @@ use nalgebra::{Isometry3, Point3};
 use rapier::geometry::{Collider, ColliderHandle, ColliderSet};
 use rapier::math::Pose;
 
-use crate::path::Extent;
+use crate::extent::Extent;
 use crate::query_collider::Shown;
 use crate::scalar;
 

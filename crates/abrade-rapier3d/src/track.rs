@@ -3,7 +3,7 @@
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
-use crate::path::Extent;
+use crate::extent::Extent;
 
 /// Slices of a step.
 pub(crate) const SLICES: usize = 16;

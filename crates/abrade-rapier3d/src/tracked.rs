@@ -11,9 +11,9 @@ use crate::ahead::Ahead;
 use crate::booking::{Booking, Contact};
 use crate::derive;
 use crate::event::{Refusal, WearEvent};
+use crate::fingerprint::{self, Print};
 use crate::gate::Lie;
 use crate::micro::{self, Volumes};
-use crate::print::{self, Print};
 use crate::quasi_static::Pressing;
 use crate::resolver::Resolver;
 use crate::shadow::{self, Shadow};
@@ -139,13 +139,13 @@ impl Tracked {
             return false;
         }
         let still = self.com == Some(rb.local_center_of_mass());
-        !(still && print::hold(&mut self.prints, rb, colliders))
+        !(still && fingerprint::hold(&mut self.prints, rb, colliders))
     }
 
     /// Forgets what was derived.
     pub fn refresh(&mut self, rb: &RigidBody, colliders: &ColliderSet) {
         self.com = Some(rb.local_center_of_mass());
-        print::take(&mut self.prints, rb, colliders);
+        fingerprint::take(&mut self.prints, rb, colliders);
         self.radius = derive::radius(rb, colliders);
         self.known = Known::Unseen;
         self.shadow = None;

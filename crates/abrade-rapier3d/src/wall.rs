@@ -13,11 +13,11 @@ use rapier::parry::shape::TypedShape;
 
 use crate::booking::Booking;
 use crate::event::Refusal;
+use crate::extent::Extent;
 use crate::free;
 use crate::gate::{Course, Lie};
 use crate::micro::{self, Volumes};
 use crate::obstacle::Search;
-use crate::path::Extent;
 use crate::resolver::Resolve;
 use crate::surface::{SurfaceId, WornCollider};
 use crate::track::Track;

@@ -85,12 +85,17 @@ impl<T> Document<T> {
         self.refuse(&path, message, format!("must be {}", allowed(error)));
     }
 
+    /// True while nothing is noted.
+    pub fn is_sound(&self) -> bool {
+        self.problems.is_empty()
+    }
+
     /// The value, if nothing is wrong with it.
     ///
     /// # Errors
     /// Everything that was noted, in the order of the file.
     pub fn finish(self) -> Result<T, SceneError> {
-        match self.problems.is_empty() {
+        match self.is_sound() {
             true => Ok(self.value),
             false => Err(refused(self.patched, self.problems)),
         }

@@ -127,9 +127,9 @@ pub enum PhysicsError {
         depth: f64,
     },
     /// A position, velocity or force is no longer finite.
-    #[error("the state is not finite after {time:e} s of contact")]
+    #[error("the state is not finite after {time:e} s")]
     NotFinite {
-        /// Time since the contact began [s].
+        /// Time since the call began that found it [s].
         time: f64,
     },
     /// The step was halved until it vanished.

@@ -215,7 +215,7 @@ impl Pressed {
 
 #[cfg(feature = "state")]
 impl Pressed {
-    /// True when these are surfaces of the sizes that it was made with; others end in a panic.
+    /// True when these are surfaces of the sizes that it was made with; with others it does nothing, or ends in an error.
     pub fn is_made_for<'a>(&self, surfaces: impl IntoIterator<Item = &'a Surface>) -> bool {
         self.integrator.is_made_for(surfaces)
     }

@@ -5,8 +5,8 @@ use nalgebra::{Isometry3, Point3, Vector3};
 use rapier::geometry::{Collider, ContactPair};
 
 use crate::collision::blow::Blow;
+use crate::extent::Extent;
 use crate::micro::{self, Volumes};
-use crate::path::Extent;
 use crate::surface::{SurfaceId, WornCollider};
 use crate::view::WorldView;
 use crate::wall;

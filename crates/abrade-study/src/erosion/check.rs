@@ -26,9 +26,15 @@ pub fn load_text(path: &Path, text: String, sets: &[String]) -> Result<StudyFile
     let mut document = Document::<StudyFile>::read(&path.display().to_string(), text, sets, kind)?;
     let folder = path.parent().unwrap_or(Path::new("."));
     check_target(&mut document);
-    check_grains(&mut document, folder);
+    check_names(&mut document);
     check_ranges(&mut document);
-    check_plates(&mut document, folder);
+    // No grain has a size that is none, and no plate is made for what is refused.
+    if document.value.size.diameter() > 0.0 {
+        check_grains(&mut document, folder);
+    }
+    if document.is_sound() {
+        check_plates(&mut document, folder);
+    }
     let mut file = document.finish()?;
     if file.reference.is_none() {
         let sphere = file.grains.iter().find(|(_, grain)| grain.form == Form::Sphere);
@@ -72,14 +78,18 @@ fn check_target(document: &mut Document<StudyFile>) {
 
 fn check_grains(document: &mut Document<StudyFile>, folder: &Path) {
     let names: Vec<String> = document.value.grains.keys().cloned().collect();
-    if names.is_empty() {
-        document.refuse(&["grains"], "the study has no grains", "name at least one");
-    }
     for name in &names {
         if let Err(error) = document.value.grain(name, 0, folder) {
             let path = ["grains", name.as_str(), "form"];
             document.refuse(&path, format!("the grain `{name}`: {error}"), "");
         }
+    }
+}
+
+fn check_names(document: &mut Document<StudyFile>) {
+    let names: Vec<String> = document.value.grains.keys().cloned().collect();
+    if names.is_empty() {
+        document.refuse(&["grains"], "the study has no grains", "name at least one");
     }
     if let Some(reference) = document.value.reference.clone().filter(|name| !names.contains(name)) {
         let known = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");

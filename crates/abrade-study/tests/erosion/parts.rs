@@ -348,6 +348,11 @@ fn what_cannot_be_made_is_refused_at_its_place() {
         let told = format!("{:?}", erosion::load(&path, &[set.to_owned()]));
         assert!(told.contains(allowed), "{set}: {told}");
     }
+    // What follows from a fault is none of its own.
+    for set in ["speeds=[0]", "speeds=[-1]", "size.diameter=0", "angles=[0]"] {
+        let error = erosion::load(&path, &[set.to_owned()]).expect_err(set);
+        assert_eq!(error.problems.len(), 1, "{set}: {error}");
+    }
 }
 
 /// Fails for a page that calls a ratio per mass one of masses, or of grains of one length one of equal mass.
