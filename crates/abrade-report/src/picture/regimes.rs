@@ -60,6 +60,8 @@ const COLOURS: [Rgb; 8] = [
 ];
 /// Half the width of what stands at the end of a bar: a line across, or the head of an arrow where it is open.
 const CAP: f64 = 7.0;
+/// Half the length of a boundary that has one point.
+const DASH: f64 = 20.0;
 const LINES: [Rgb; 3] = [[20, 20, 20], [120, 40, 160], [0, 90, 160]];
 
 impl Regimes<'_> {
@@ -180,7 +182,8 @@ impl Regimes<'_> {
             canvas.text([left + 44.0, down], name, look);
             down += 38.0;
         }
-        for (at, boundary) in self.boundaries.iter().enumerate() {
+        let drawn = |(_, boundary): &(usize, &Boundary)| !boundary.points.is_empty();
+        for (at, boundary) in self.boundaries.iter().enumerate().filter(drawn) {
             let middle = if boundary.is_dashed { left + 12.0 } else { left + 30.0 };
             canvas.line(&[[left, down], [middle, down]], LINES[at % LINES.len()], 3.0)?;
             canvas.text([left + 44.0, down], &boundary.name, look);
@@ -206,6 +209,9 @@ fn draw_boundary(
     ends: [(f64, f64); 2],
 ) -> Result<(), ReportError> {
     let line: Vec<[f64; 2]> = boundary.points.iter().map(|at| place(ends, *at)).collect();
+    if let [[x, y]] = line[..] {
+        canvas.line(&[[x - DASH, y], [x + DASH, y]], colour, 3.0)?;
+    }
     for pair in line.windows(2) {
         let pieces = if boundary.is_dashed { 12 } else { 1 };
         for piece in 0..pieces {
