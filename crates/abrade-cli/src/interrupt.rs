@@ -1,5 +1,4 @@
-//! The user's interrupt, or a wish of the system that the process ends (SIGTERM, SIGHUP): the first ends the run after
-//! the step under way, the second at once.
+//! The user's interrupt: the first ends the run after the step under way, the second at once.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -84,7 +84,7 @@ impl WearWorld {
         for driven in &mut all {
             let (body, surface) = (driven.handle, driven.surface);
             let worn = &mut self.surfaces[surface.0];
-            let Some(frame) = worn.met_by(colliders).map(|proxy| worn.pose(proxy)) else {
+            let Some(frame) = worn.live_proxy(colliders).map(|proxy| worn.pose(proxy)) else {
                 continue;
             };
             match driven.carry(worn, frame, dt, observer) {

@@ -177,8 +177,6 @@ impl Refusal {
                 Some(Self::Inside)
             }
             PhysicsError::TooManySteps { .. } if resolve == Resolve::Auto => Some(Self::Stiff),
-            // Something else bears it, or it hangs over the rim.
-            PhysicsError::LoadNotReached { .. } if resolve == Resolve::Auto => Some(Self::Inside),
             _ => None,
         }
     }

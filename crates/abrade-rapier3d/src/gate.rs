@@ -69,7 +69,7 @@ pub(crate) fn lie(
 ) {
     lies.clear();
     for (id, worn) in surfaces.iter().enumerate() {
-        let Some(proxy) = worn.met_by(world.colliders) else { continue };
+        let Some(proxy) = worn.live_proxy(world.colliders) else { continue };
         let mut pose = worn.pose(proxy);
         let extent = worn.bounds.grown(worn.inflation).placed_by(&pose);
         let lead = lead(proxy, world, tracked, &extent, dt);

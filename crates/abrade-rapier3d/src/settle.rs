@@ -184,10 +184,7 @@ impl WearWorld {
                 }
                 Err((error, gained)) => {
                     worn.push((surface, gained));
-                    match Refusal::of(&error, self.settings.resolve) {
-                        Some(reason) => self.refuse(held.body, surface, reason),
-                        None => self.fail(held.body, surface, error),
-                    }
+                    self.fail(held.body, surface, error);
                 }
             }
         }

@@ -85,12 +85,12 @@ impl WornCollider {
         self.exact = Some((*proxy.position(), pose));
     }
 
-    /// The surface's frame in the world.
     /// The proxy, if bodies can meet it: it is there, enabled and no sensor.
-    pub fn met_by<'a>(&self, colliders: &'a ColliderSet) -> Option<&'a Collider> {
+    pub fn live_proxy<'a>(&self, colliders: &'a ColliderSet) -> Option<&'a Collider> {
         colliders.get(self.proxy).filter(|proxy| proxy.is_enabled() && !proxy.is_sensor())
     }
 
+    /// The surface's frame in the world.
     pub fn pose(&self, proxy: &Collider) -> Isometry3<f64> {
         match &self.exact {
             Some((seen, exact)) if seen == proxy.position() => *exact,

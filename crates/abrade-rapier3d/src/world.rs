@@ -53,7 +53,7 @@ pub struct WearWorld {
     /// The first look at every body, and whom it picked in this step.
     pub(crate) glances: Glances,
     pub(crate) picked: Vec<RigidBodyHandle>,
-    /// Bodies that the embedder has registered, removed ones included.
+    /// Bodies that the embedder has registered and that were there at the last step.
     pub(crate) registered: Vec<RigidBodyHandle>,
     /// Bodies carried through this step.
     pub(crate) integrated: Vec<Integrated>,
@@ -221,7 +221,7 @@ impl WearWorld {
         self.reasons.iter().map(|((by, why), count)| (*by, &**why, *count))
     }
 
-    /// What the last step did, one that ended in an error too.
+    /// What the last step did, one that ended in an error too; nothing before the first, or after a world was read.
     pub fn last_step(&self) -> StepReport {
         self.last_step
     }

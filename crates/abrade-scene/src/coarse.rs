@@ -11,6 +11,7 @@ use crate::place;
 use crate::scene::{SceneSurface, SurfaceMotion};
 use crate::solid::Solid;
 use crate::spans::path;
+use crate::way;
 
 /// Radius of a contact in pitches below which it is carried by a few nodes [-].
 const FEW: f64 = 2.0;
@@ -18,8 +19,12 @@ const FEW: f64 = 2.0;
 /// Width of the rim of a contact in pitches below which its adhesion is not resolved ([`abrade::Adhesion`]) [-].
 const RIM: f64 = 5.0;
 
-/// Bodies of a stream that are on their way at once from which on they meet each other [-].
-const MET: f64 = 1.0;
+/// Bodies of a stream that are on their way at once, in the beam that one of them fills, from which on they meet each
+/// other [-].
+const MET: f64 = 0.5;
+
+/// Velocity along the normal over the whole below which a body goes along the plate [-].
+const LEVEL: f64 = 1e-9;
 
 /// The only surface of a scene, a plate at rest.
 struct Plate<'a> {
@@ -54,11 +59,17 @@ impl<'a> Plate<'a> {
         is_at_rest.then_some(Self { name, surface, strip, hardness })
     }
 
-    /// How the body called `name` starts, seen from the plate; none for one that does not come down.
-    fn state(&self, checked: &Checked, name: &str) -> Option<State> {
+    /// How the body called `name` comes to the plate, seen from it: where it starts, at the speed along the normal that
+    /// gravity gives it on its way; none for one that does not come down.
+    fn state(&self, checked: &Checked, name: &String) -> Option<State> {
         let (body, solid) = (checked.scene.bodies.get(name)?, checked.solids.get(name)?);
-        let state = checked.start(body, solid)?.seen_from(&place::home(self.surface)?);
-        (state.velocity.z < 0.0).then_some(state)
+        let frame = place::home(self.surface)?;
+        let mut state = checked.start(body, solid)?.seen_from(&frame);
+        let comes_down = state.velocity.z < -LEVEL * state.velocity.norm();
+        let pull = -frame.inverse_transform_vector(&checked.scene.gravity.into()).z;
+        let fall = (state.position.z - solid.shape.bounding_radius()).max(0.0);
+        state.velocity.z = -(state.velocity.z.powi(2) + 2.0 * pull * fall).max(0.0).sqrt();
+        (comes_down && way::comes(checked, name) != Some(false)).then_some(state)
     }
 
     /// Radius of the contact that a ball comes to whose energy along the normal goes into its crater,
@@ -108,9 +119,13 @@ fn crowd(checked: &Checked, plate: &Plate<'_>, name: &str, names: &[String]) -> 
     let every = (last - checked.due.get(first)?) / (names.len() as f64 - 1.0);
     // Down to the plate and back.
     let way = 2.0 * state.position.z.max(0.0) / -state.velocity.z;
-    let (met, size) = (way / every, 2.0 * solid.shape.bounding_radius());
+    let met = (way / every).min(names.len() as f64);
+    let size = 2.0 * solid.shape.bounding_radius();
     let (step, needed) = (checked.scene.run.step, size / state.velocity.norm());
-    (met > MET && step > needed).then(|| {
+    // A beam is a disc of this radius across its way.
+    let spread = checked.scene.streams.get(name)?.spread;
+    let beside = (size / spread.max(size)).powi(2);
+    (met * beside > MET && step > needed).then(|| {
         format!(
             "about {} bodies of `{}` are on their way at once and may meet, and in a step of {} each goes {} times its \
              size: what they do to each other depends on the step; give `run.step` of {} or less",

@@ -11,7 +11,7 @@ use crate::spans::path;
 /// Size of a body over that of the largest surface above which a unit was probably forgotten [-].
 const LARGE: f64 = 10.0;
 
-/// Speed of the fastest projectiles, of light-gas guns and meteoroids [m/s].
+/// Speed of the fastest meteoroids [m/s].
 const FASTEST: f64 = 8e4;
 
 /// What solids have of a quantity.

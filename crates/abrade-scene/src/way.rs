@@ -30,7 +30,7 @@ pub(crate) fn notes(checked: &Checked) -> Vec<String> {
 }
 
 /// Whether the body called `name` comes to a plate; none for one that does not fly.
-fn comes(checked: &Checked, name: &String) -> Option<bool> {
+pub(crate) fn comes(checked: &Checked, name: &String) -> Option<bool> {
     let body = checked.scene.bodies.get(name)?;
     if matches!(body.motion, Motion::Fixed | Motion::Drive { .. }) {
         return None;

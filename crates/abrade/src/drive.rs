@@ -76,7 +76,7 @@ pub struct Driven {
     integrator: Integrator,
     travelled: f64,
     /// How far [`Driven::indent`] has pressed the body in [m].
-    indented: f64,
+    pressed_in: f64,
 }
 
 impl Driven {
@@ -104,7 +104,7 @@ impl Driven {
         led.state.spin = Vector3::zeros();
         let integrator = Integrator::new(&led, [surface], settings)?;
         *body = led;
-        Ok(Self { drive, integrator, travelled: 0.0, indented: 0.0 })
+        Ok(Self { drive, integrator, travelled: 0.0, pressed_in: 0.0 })
     }
 
     /// The drive.
@@ -163,8 +163,8 @@ impl Driven {
         let limit = body.shape.bounding_radius();
         let mut done = Advance::default();
         loop {
-            if self.indented > limit {
-                let (load, depth) = (self.drive.indent_to, self.indented);
+            if self.pressed_in > limit {
+                let (load, depth) = (self.drive.indent_to, self.pressed_in);
                 return Err(PhysicsError::LoadNotReached { load, depth });
             }
             if done.steps > self.integrator.step_limit() {
@@ -183,7 +183,7 @@ impl Driven {
                 done.node_evaluations += trial.evaluations;
             }
             let reached = load(self.integrator.grip(&trial).force) >= (1.0 - LOAD) * target;
-            self.indented += step;
+            self.pressed_in += step;
             done.steps += 1;
             self.lead(body, placed, &trial);
             observer.observe(&Instant {
@@ -305,7 +305,8 @@ impl Driven {
 #[cfg(feature = "state")]
 impl Driven {
     pub(crate) fn checked(self) -> Result<Self, Fault> {
-        let fine = self.drive.is_sound() && not_negative(self.travelled);
+        let fine =
+            self.drive.is_sound() && not_negative(self.travelled) && not_negative(self.pressed_in);
         require(fine && self.integrator.count() == 1, "a drive is out of range")?;
         Ok(self)
     }

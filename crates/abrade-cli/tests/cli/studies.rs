@@ -56,7 +56,7 @@ fn an_erosion_study_is_made_whole_or_in_parts() {
     for words in ["two grains\n", "cube at 98 m/s", "30         4", "runs/study"] {
         assert!(said.out.contains(words), "{words}: {}", said.out);
     }
-    let wide = "In 1 of 2 cases the interval of the displaced volume is wider than 5 % after 4 impacts: give more samples.";
+    let wide = "In 1 of 2 cases the displaced volume is known to no better than ± 5 % after 4 impacts: give more samples.";
     let page = std::fs::read_to_string(folder.0.join("runs/study/report.html")).unwrap();
     assert!(said.out.contains(wide) && page.contains(wide), "{}", said.out);
     let table = |place: &str| {

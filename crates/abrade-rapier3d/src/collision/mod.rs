@@ -321,6 +321,7 @@ impl WearWorld {
     /// Leaves a contact that the core could not take to the end.
     fn give_up(&mut self, body: RigidBodyHandle, surface: SurfaceId, error: PhysicsError) {
         let reason = match &error {
+            PhysicsError::LoadNotReached { .. } => Some(Refusal::Inside),
             PhysicsError::Unsupported { .. } => Some(Refusal::Wears),
             error => Refusal::of(error, self.settings.resolve),
         };

@@ -66,8 +66,12 @@ impl Erosion {
         };
         let degrees = |result: &CaseResult| digits(result.case.angle.to_degrees());
         let debris = |result: &CaseResult| result.quantity("removed_mm3_per_kg");
-        let most = cases.iter().max_by(|a, b| debris(a).value.total_cmp(&debris(b).value))?;
-        let leaves = match debris(most).value > debris(most).half_width {
+        // What the samples can tell from none comes first.
+        let is_told = |result: &CaseResult| debris(result).value > debris(result).half_width;
+        let rank = |result: &CaseResult| (is_told(result), debris(result).value);
+        let before = |a: &(bool, f64), b: &(bool, f64)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1));
+        let most = cases.iter().max_by(|a, b| before(&rank(a), &rank(b)))?;
+        let leaves = match is_told(most) {
             true => format!("most debris at {} deg, {} mm³/kg", degrees(most), sign(&debris(most))),
             false if debris(most).value > 0.0 => {
                 "less debris than the samples can tell from none".to_owned()
@@ -229,7 +233,7 @@ impl Erosion {
         let wide = self.cases.iter().filter(|result| result.is_wide(samples)).count();
         (wide > 0).then(|| {
             format!(
-                "In {wide} of {} the interval of the displaced volume is wider than {} % after {}: give more samples.",
+                "In {wide} of {} the displaced volume is known to no better than ± {} % after {}: give more samples.",
                 count(self.cases.len(), "case", "cases"),
                 digits(100.0 * samples.interval),
                 count(samples.most as usize, "impact", "impacts")
